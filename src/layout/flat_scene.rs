@@ -1,0 +1,69 @@
+//! The only scene that renderers read: world-space arrays without names or paths.
+
+use super::{Attribute, Corner, Light, Material, Node, Triangle};
+
+/// A body, for tables and messages.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Body {
+    /// The model's name.
+    pub name: String,
+    /// Material index of its matter.
+    pub material: u32,
+    /// Whether its matter transmits light; such bodies come first, by priority.
+    pub transmissive: bool,
+    /// Higher wins where bodies overlap.
+    pub priority: i32,
+    /// Number of triangles.
+    pub triangles: u32,
+}
+
+/// Where an image lies in [`FlatScene::texels`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FlatTexture {
+    /// First word.
+    pub first: u32,
+    /// Texels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+}
+
+/// The flattened scene, in world space. Indices and finiteness are proven by `flatten`.
+#[derive(Debug, Clone)]
+pub struct FlatScene {
+    /// BVH, root first. Never empty.
+    pub nodes: Vec<Node>,
+    /// Triangles in the order of the BVH's leaves.
+    pub triangles: Vec<Triangle>,
+    /// One for each primitive id.
+    pub attributes: Vec<Attribute>,
+    /// Three for each smooth or textured triangle.
+    pub corners: Vec<Corner>,
+    /// Row 0 is the air.
+    pub materials: Vec<Material>,
+    /// Names of `materials`.
+    pub material_names: Vec<String>,
+    /// Point lights in file order.
+    pub lights: Vec<Light>,
+    /// Words: first the 256 linear values (f32 bits) of 8-bit sRGB; then textures as 0x00BBGGRR words;
+    /// then the background picture as three f32 (bits) a texel.
+    pub texels: Vec<u32>,
+    /// Transmissive bodies first, by (priority, order in the file); the index is the body id.
+    pub bodies: Vec<Body>,
+    /// How many of `bodies` are transmissive, ≤ [`MAX_MEDIA`](super::constants::MAX_MEDIA).
+    pub transmissive_bodies: u32,
+    /// Least and greatest corner of the scene's box (all zero for an empty scene).
+    pub bounds: [[f32; 3]; 2],
+    /// Greatest number of nodes on a path from the root, ≤ [`MAX_BVH_DEPTH`](super::constants::MAX_BVH_DEPTH).
+    pub bvh_depth: u32,
+    /// Ia.
+    pub ambient: [f32; 3],
+    /// Radiance of a constant background, or at and below the horizon of a gradient.
+    pub horizon: [f32; 3],
+    /// Radiance straight up (equal to `horizon` for a constant background).
+    pub zenith: [f32; 3],
+    /// The background picture, its rotation about +Y in turns, in [0, 1), and its intensity.
+    pub environment: Option<(FlatTexture, f32, f32)>,
+    /// L₀ … L of design section 1: `radiance_bound[k]` bounds what a tree of k further levels returns.
+    pub radiance_bound: Vec<f32>,
+}

@@ -1,0 +1,15 @@
+//! The contract both devices obey: `#[repr(C)]` records, shared constants, settings.
+//!
+//! Every record here has a WGSL struct of the same name in `shaders/records.wgsl`; a test compares sizes
+//! and offsets. Every constant in [`constants`] is injected into the shaders; a test forbids repeating one.
+
+pub mod constants;
+mod flat_scene;
+mod records;
+mod settings;
+mod view;
+
+pub use flat_scene::{Body, FlatScene, FlatTexture};
+pub use records::{Aov, Attribute, Corner, Light, Material, Node, Texel, Triangle};
+pub use settings::{Backend, Float, Intersector, Precision, Settings};
+pub use view::View;

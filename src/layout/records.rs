@@ -1,0 +1,165 @@
+//! The records in the storage buffers. Field order is the WGSL struct's; a vec3 is followed by a scalar
+//! so that neither language pads.
+
+use bytemuck::{Pod, Zeroable};
+
+/// An inner node: the boxes of its two children (Aila and Laine 2009). A leaf is named by its parent.
+///
+/// `a_first` is a node index if `a_count` is 0, else the first of `a_count` triangles.
+/// An absent child has `lo > hi` on every axis, finite.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct Node {
+    /// Least corner of child a.
+    pub a_lo: [f32; 3],
+    /// Node index, or first triangle.
+    pub a_first: u32,
+    /// Greatest corner of child a.
+    pub a_hi: [f32; 3],
+    /// 0 for an inner child, else its number of triangles.
+    pub a_count: u32,
+    /// Least corner of child b.
+    pub b_lo: [f32; 3],
+    /// Node index, or first triangle.
+    pub b_first: u32,
+    /// Greatest corner of child b.
+    pub b_hi: [f32; 3],
+    /// 0 for an inner child, else its number of triangles.
+    pub b_count: u32,
+}
+
+/// A triangle in world space, in the order of the BVH's leaves.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct Triangle {
+    /// First corner.
+    pub v0: [f32; 3],
+    /// Primitive id: index into the attributes; ties in distance go to the lowest.
+    pub id: u32,
+    /// Second corner.
+    pub v1: [f32; 3],
+    /// 1 where light passes (the material transmits), else 0.
+    pub transmissive: u32,
+    /// Third corner.
+    pub v2: [f32; 3],
+    /// Unused, 0.
+    pub reserved: u32,
+}
+
+/// What a hit needs to know about a triangle, in the order of primitive ids.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct Attribute {
+    /// Unit face normal, out of the matter, rounded from f64.
+    pub normal: [f32; 3],
+    /// Index into the materials.
+    pub material: u32,
+    /// Body id. Below `View::transmissive_bodies` it is also the body's bit in the media mask.
+    pub body: u32,
+    /// The second body of a merged interface: its id, plus [`Attribute::OPPOSITE`] where its outside
+    /// is on the other side; [`Attribute::NONE`] where there is none.
+    pub other: u32,
+    /// First of three [`Corner`]s, or [`Attribute::NONE`] for a flat face without texture.
+    pub corners: u32,
+    /// Unused, 0.
+    pub reserved: u32,
+}
+
+impl Attribute {
+    /// No second body, no corners.
+    pub const NONE: u32 = u32::MAX;
+    /// Flag in `other`: the second body's matter lies on the front side of the face.
+    pub const OPPOSITE: u32 = 1 << 31;
+}
+
+/// Shading data of one corner.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct Corner {
+    /// Unit shading normal, out of the matter.
+    pub normal: [f32; 3],
+    /// Texture coordinate to the right.
+    pub u: f32,
+    /// Geometric position is not repeated here; reserved words keep the record a multiple of 16 bytes.
+    pub reserved: [f32; 3],
+    /// Texture coordinate upwards.
+    pub v: f32,
+}
+
+/// Surface and medium, linear RGB. Row 0 is the air: transparent, refractive index 1.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct Material {
+    /// ka × colour.
+    pub ambient: [f32; 3],
+    /// Refractive index.
+    pub ior: f32,
+    /// kd × colour.
+    pub diffuse: [f32; 3],
+    /// β.
+    pub shininess: f32,
+    /// ks × colour.
+    pub specular: [f32; 3],
+    /// 1 for Fresnel weights, 0 for classic ones.
+    pub fresnel: u32,
+    /// kr.
+    pub reflection: [f32; 3],
+    /// First texel of the texture, or [`Attribute::NONE`].
+    pub texture: u32,
+    /// kt.
+    pub transmission: [f32; 3],
+    /// Texture width in texels.
+    pub texture_width: u32,
+    /// σ per scene unit.
+    pub absorption: [f32; 3],
+    /// Texture height in texels.
+    pub texture_height: u32,
+}
+
+/// A point light.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct Light {
+    /// World position.
+    pub position: [f32; 3],
+    /// 1 for inverse-square falloff, 0 for none.
+    pub inverse_square: u32,
+    /// Ij, linear RGB.
+    pub intensity: [f32; 3],
+    /// Unused, 0.
+    pub reserved: u32,
+}
+
+/// One pixel of the film.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
+pub struct Texel {
+    /// Linear radiance, the mean of the samples.
+    pub radiance: [f32; 3],
+    /// Largest weight channel of every cut ray, summed, the mean of the samples.
+    pub dropped: f32,
+    /// Certified bound on the truncation error (design section 1), the mean of the samples.
+    pub bound: f32,
+    /// Rays traced, all kinds and samples.
+    pub rays: u32,
+    /// Primitive hash of sample 0.
+    pub primitive_hash: u32,
+    /// Body hash of sample 0.
+    pub body_hash: u32,
+}
+
+/// What the primary ray of sample 0 met; all zero (body and medium [`Attribute::NONE`]) where it escaped.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
+pub struct Aov {
+    /// Unit shading normal facing the ray, world space.
+    pub normal: [f32; 3],
+    /// Distance along the ray.
+    pub depth: f32,
+    /// Body id.
+    pub body: u32,
+    /// Material index of the medium that the ray enters or would enter behind the face; 0 is air.
+    pub medium: u32,
+    /// Unused, 0.
+    pub reserved: [u32; 2],
+}

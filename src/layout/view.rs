@@ -1,0 +1,66 @@
+//! What changes from frame to frame: the camera and the scene's small constants, as one uniform record.
+
+use bytemuck::{Pod, Zeroable};
+
+use super::constants::{MAX_DEPTH, MAX_MEDIA};
+
+/// Words of [`View::radiance_bound`], rounded up to whole vec4s.
+pub const BOUND_ROWS: usize = (MAX_DEPTH as usize + 2).div_ceil(4);
+/// Rows of [`View::media`].
+pub const MEDIA_ROWS: usize = (MAX_MEDIA as usize).div_ceil(4);
+
+/// Camera, picture and scene constants. Uniform buffer; all vec3s are followed by a scalar.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct View {
+    /// World position of the eye.
+    pub eye: [f32; 3],
+    /// Width of the whole picture in pixels.
+    pub width: u32,
+    /// Unit vector into the picture.
+    pub forward: [f32; 3],
+    /// Height of the whole picture in pixels.
+    pub height: u32,
+    /// To the right edge of the picture at distance 1: unit vector × tan(fov_y/2) × width/height.
+    pub right: [f32; 3],
+    /// Media mask at the eye.
+    pub start_media: u32,
+    /// To the top edge of the picture at distance 1: unit vector × tan(fov_y/2).
+    pub up: [f32; 3],
+    /// The deepest ray that is traced.
+    pub depth: u32,
+    /// Ia.
+    pub ambient: [f32; 3],
+    /// The least weight that is traced.
+    pub cutoff: f32,
+    /// Background at and below the horizon.
+    pub horizon: [f32; 3],
+    /// Samples per pixel.
+    pub samples: u32,
+    /// Background straight up.
+    pub zenith: [f32; 3],
+    /// Number of point lights.
+    pub lights: u32,
+    /// Least corner of the scene's box.
+    pub scene_lo: [f32; 3],
+    /// Number of transmissive bodies: lower body ids have a bit in the media mask.
+    pub transmissive_bodies: u32,
+    /// Greatest corner of the scene's box.
+    pub scene_hi: [f32; 3],
+    /// First word of the background picture, or `NONE`.
+    pub environment: u32,
+    /// Texels in a row of the background picture.
+    pub environment_width: u32,
+    /// Its rows.
+    pub environment_height: u32,
+    /// Turns of the background picture about +Y, in [0, 1).
+    pub environment_turn: f32,
+    /// Factor on its radiance.
+    pub environment_intensity: f32,
+    /// Left and top of the crop in pixels, then its width and height.
+    pub crop: [u32; 4],
+    /// Material of each transmissive body: the medium of its bit in the mask.
+    pub media: [[u32; 4]; MEDIA_ROWS],
+    /// `FlatScene::radiance_bound` in rows of four.
+    pub radiance_bound: [[f32; 4]; BOUND_ROWS],
+}
