@@ -42,6 +42,14 @@ shared! {
     /// Interfaces without effect that a ray, or interfaces of any kind that a shadow ray, may pass;
     /// one that met this many is stuck and is cut.
     MAX_PASSES: u32 = 4096;
+    /// Index of primary rays in counts by kind.
+    RAY_PRIMARY: u32 = 0;
+    /// Index of reflected rays in counts by kind.
+    RAY_REFLECTION: u32 = 1;
+    /// Index of refracted rays in counts by kind.
+    RAY_REFRACTION: u32 = 2;
+    /// Index of shadow rays in counts by kind.
+    RAY_SHADOW: u32 = 3;
     /// Marks an absent index.
     NONE: u32 = u32::MAX;
     /// Flag in [`Attribute::other`](super::Attribute::other): the second body's outside is on the other side.
@@ -83,6 +91,22 @@ shared! {
     TWO_OVER_LN2_HI: f64 = 2.884_765_625;
     /// 2/ln 2 − [`TWO_OVER_LN2_HI`].
     TWO_OVER_LN2_LO: f64 = 6.244_567_779_268_147e-4;
+    /// Upper bits of log2(1.25): 12 after the point.
+    LOG2_5_4_HI: f64 = 0.32177734375;
+    /// log2(1.25) − [`LOG2_5_4_HI`].
+    LOG2_5_4_LO: f64 = 0.00015075113736234786;
+    /// Upper bits of log2(1.5): 12 after the point.
+    LOG2_3_2_HI: f64 = 0.5849609375;
+    /// log2(1.5) − [`LOG2_3_2_HI`].
+    LOG2_3_2_LO: f64 = 1.5632211561814537e-06;
+    /// Upper bits of log2(1.75): 12 after the point.
+    LOG2_7_4_HI: f64 = 0.80712890625;
+    /// log2(1.75) − [`LOG2_7_4_HI`].
+    LOG2_7_4_LO: f64 = 0.00022601580760410743;
+    /// π/4 rounded to f32.
+    PI_4_HI: f64 = 0.7853981852531433;
+    /// π/4 − [`PI_4_HI`].
+    PI_4_LO: f64 = -2.1855695031547384e-08;
     /// tan(π/8): beyond it the arctangent is reduced by π/4.
     TAN_PI_8: f64 = 0.414_213_562_373_095_03;
     /// π.
