@@ -1,6 +1,7 @@
 //! Stop 7 of 7: film. Twin of `shaders/film.wgsl`.
 
 use crate::layout::Texel;
+use crate::layout::constants::LEAST_NORMAL;
 
 use super::whitted::Sample;
 use super::{Real, Vec3, World};
@@ -31,7 +32,7 @@ pub fn add<R: Real>(world: &World, texel: &mut Texel, sample: &Sample<R>, index:
 /// To f32, with subnormals as 0: devices differ on them.
 pub fn flush<R: Real>(x: R) -> f32 {
     let f = x.to_f32();
-    if f.abs() < f32::MIN_POSITIVE { 0.0 } else { f }
+    if f.abs() < LEAST_NORMAL as f32 { 0.0 } else { f }
 }
 
 /// A vector through [`flush`].

@@ -42,6 +42,10 @@ shared! {
     /// Interfaces without effect that a ray, or interfaces of any kind that a shadow ray, may pass;
     /// one that met this many is stuck and is cut.
     MAX_PASSES: u32 = 4096;
+    /// Rows of four in [`View::media`](super::View::media).
+    MEDIA_ROWS: u32 = MAX_MEDIA.div_ceil(4);
+    /// Rows of four in [`View::radiance_bound`](super::View::radiance_bound): 0 to `MAX_DEPTH` + 1 levels.
+    BOUND_ROWS: u32 = (MAX_DEPTH + 2).div_ceil(4);
     /// Index of primary rays in counts by kind.
     RAY_PRIMARY: u32 = 0;
     /// Index of reflected rays in counts by kind.
@@ -113,6 +117,8 @@ shared! {
     PI: f64 = std::f64::consts::PI;
     /// 1/π.
     INV_PI: f64 = std::f64::consts::FRAC_1_PI;
+    /// 2^-126: the least normal f32; the film keeps nothing below.
+    LEAST_NORMAL: f64 = 1.175_494_350_822_287_5e-38;
     /// exp(−x) of an f32 is below 2^-126 from here on, and returned as 0.
     EXP_LIMIT: f64 = 87.0;
 }

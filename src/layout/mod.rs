@@ -12,4 +12,4 @@ mod view;
 pub use flat_scene::{Body, FlatScene, FlatTexture};
 pub use records::{Aov, Attribute, Corner, Light, Material, Node, Texel, Triangle};
 pub use settings::{Backend, Float, Intersector, Precision, Settings};
-pub use view::{BOUND_ROWS, MEDIA_ROWS, View};
+pub use view::View;
