@@ -116,7 +116,7 @@ shared! {
     /// log2(1.75) − [`LOG2_7_4_HI`].
     LOG2_7_4_LO: f32 = 0.0002260158;
     /// π/4 rounded to f32.
-    PI_4_HI: f32 = 0.7853982;
+    PI_4_HI: f32 = std::f32::consts::FRAC_PI_4;
     /// π/4 − [`PI_4_HI`].
     PI_4_LO: f32 = -2.1855694e-08;
     /// tan(π/8): beyond it the arctangent is reduced by π/4.
