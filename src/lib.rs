@@ -2,6 +2,7 @@
 
 pub mod cpu;
 pub mod film;
+pub mod gpu;
 pub mod kernel;
 pub mod layout;
 pub mod scene;

@@ -7,9 +7,11 @@ pub mod constants;
 mod flat_scene;
 mod records;
 mod settings;
+mod tile;
 mod view;
 
 pub use flat_scene::{Body, FlatScene, FlatTexture};
 pub use records::{Aov, Attribute, Corner, Light, Material, Node, Texel, Triangle};
 pub use settings::{Backend, Float, Intersector, Precision, Settings};
+pub use tile::{FilmHead, Tile};
 pub use view::View;
