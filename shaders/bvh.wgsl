@@ -156,7 +156,8 @@ fn occluded(ray: Ray, limit: real) -> bool {
     let start = Hit(limit, 0u, NONE, 0.0, 0.0, false);
     var size = 0u;
     var at = 0u;
-    loop {
+    var found = false;
+    while !found {
         let node = nodes[at];
         let a = slabs(ray, vec3r(node.a_lo), vec3r(node.a_hi));
         let b = slabs(ray, vec3r(node.b_lo), vec3r(node.b_hi));
@@ -164,7 +165,8 @@ fn occluded(ray: Ray, limit: real) -> bool {
         if a_inner && node.a_count > 0u {
             for (var i = node.a_first; i < node.a_first + node.a_count; i++) {
                 if nearer(ray, i, start).index != NONE {
-                    return true;
+                    found = true;
+                    break;
                 }
             }
             a_inner = false;
@@ -173,7 +175,8 @@ fn occluded(ray: Ray, limit: real) -> bool {
         if b_inner && node.b_count > 0u {
             for (var i = node.b_first; i < node.b_first + node.b_count; i++) {
                 if nearer(ray, i, start).index != NONE {
-                    return true;
+                    found = true;
+                    break;
                 }
             }
             b_inner = false;
@@ -190,9 +193,10 @@ fn occluded(ray: Ray, limit: real) -> bool {
             size--;
             at = bvh_stack[size];
         } else {
-            return false;
+            break;
         }
     }
+    return found;
 }
 
 // The limit of a ray without end.

@@ -31,7 +31,7 @@ fn add(before: Texel, sample: Sample, index: u32) -> Texel {
 // To f32, with subnormals as 0: devices differ on them.
 fn flush(x: real) -> f32 {
     let f = f32(x);
-    if abs(f) < f32(LEAST_NORMAL) {
+    if abs(f) < LEAST_NORMAL {
         return 0.0;
     }
     return f;

@@ -2,7 +2,7 @@
 
 import package::real::{real, vec3r, greatest};
 import package::constants::{
-    EXP_LIMIT, LN2, LN2_HI, LN2_LO, LOG2_3_2_HI, LOG2_3_2_LO, LOG2_5_4_HI, LOG2_5_4_LO, LOG2_7_4_HI, LOG2_7_4_LO,
+    EXP_LIMIT, LN2, LN2_DOUBLE, LN2_HI, LN2_LO, LOG2_3_2_HI, LOG2_3_2_LO, LOG2_5_4_HI, LOG2_5_4_LO, LOG2_7_4_HI, LOG2_7_4_LO,
     LOG2_E, PI_4_HI, PI_4_LO, TAN_PI_8, TWO_OVER_LN2_HI, TWO_OVER_LN2_LO,
 };
 
@@ -49,23 +49,23 @@ fn arctangent(y: real, x: real) -> real {
 }
 
 fn exp_neg_f32(x: f32) -> f32 {
-    if x >= f32(EXP_LIMIT) {
+    if x >= EXP_LIMIT {
         return 0.0;
     }
     // Cody–Waite: x = n ln 2 + r, |r| <= ln 2 / 2, with an exact product by the upper bits.
-    let n = floor(x * f32(LOG2_E) + 0.5);
-    let r = (x - n * f32(LN2_HI)) - n * f32(LN2_LO);
+    let n = floor(x * LOG2_E + 0.5);
+    let r = (x - n * LN2_HI) - n * LN2_LO;
     return scale2(exp_poly(-r), -i32(n));
 }
 
 // The same in f64, by Taylor's series to the 13th power: remainder below 1e-16.
 @if(f64)
 fn exp_neg_f64(x: f64) -> f64 {
-    if x >= EXP_LIMIT {
+    if x >= f64(EXP_LIMIT) {
         return 0.0;
     }
-    let n = floor(x * LOG2_E + 0.5);
-    let r = n * LN2 - x;
+    let n = floor(x * f64(LOG2_E) + 0.5);
+    let r = n * LN2_DOUBLE - x;
     var p = f64(1.0);
     for (var i = 13; i > 0; i--) {
         p = 1.0 + p * r / f64(i);
@@ -100,7 +100,7 @@ fn power_f32(x: f32, y: f32) -> f32 {
     }
     let n = floor(w + 0.5);
     let r = (p - n) + q;
-    return scale2(exp_poly(r * f32(LN2)), i32(n));
+    return scale2(exp_poly(r * LN2), i32(n));
 }
 
 fn arctangent_f32(y: f32, x: f32) -> f32 {
@@ -112,7 +112,7 @@ fn arctangent_f32(y: f32, x: f32) -> f32 {
         return 0.0;
     }
     // Fold to the first octant, then by pi/4 below tan(pi/8).
-    let folded = lo > hi * f32(TAN_PI_8);
+    let folded = lo > hi * TAN_PI_8;
     var q: f32;
     if folded {
         q = (lo - hi) / (lo + hi);
@@ -122,17 +122,17 @@ fn arctangent_f32(y: f32, x: f32) -> f32 {
     var base = f32(0.0);
     var angle = atan_poly(q);
     if folded {
-        base = f32(PI_4_HI);
-        angle = angle + f32(PI_4_LO);
+        base = PI_4_HI;
+        angle = angle + PI_4_LO;
     }
     // Unfold, the small part apart to the end.
     if ay > ax {
-        base = 2.0 * f32(PI_4_HI) - base;
-        angle = 2.0 * f32(PI_4_LO) - angle;
+        base = 2.0 * PI_4_HI - base;
+        angle = 2.0 * PI_4_LO - angle;
     }
     if x < 0.0 {
-        base = 4.0 * f32(PI_4_HI) - base;
-        angle = 4.0 * f32(PI_4_LO) - angle;
+        base = 4.0 * PI_4_HI - base;
+        angle = 4.0 * PI_4_LO - angle;
     }
     let half = base + angle;
     return select(half, -half, y < 0.0);
@@ -161,18 +161,18 @@ fn log2_parts(x: f32) -> vec3f {
     var fine = f32(0.0);
     if m > 1.118 {
         c = 1.25;
-        coarse = f32(LOG2_5_4_HI);
-        fine = f32(LOG2_5_4_LO);
+        coarse = LOG2_5_4_HI;
+        fine = LOG2_5_4_LO;
     }
     if m > 1.369 {
         c = 1.5;
-        coarse = f32(LOG2_3_2_HI);
-        fine = f32(LOG2_3_2_LO);
+        coarse = LOG2_3_2_HI;
+        fine = LOG2_3_2_LO;
     }
     if m > 1.62 {
         c = 1.75;
-        coarse = f32(LOG2_7_4_HI);
-        fine = f32(LOG2_7_4_LO);
+        coarse = LOG2_7_4_HI;
+        fine = LOG2_7_4_LO;
     }
     if m > 1.871 {
         c = 2.0;
@@ -194,8 +194,8 @@ fn log2_parts(x: f32) -> vec3f {
     p = p * z + f32(1.0 / 5.0);
     p = p * z + f32(1.0 / 3.0);
     let tail = s * z * p + s_lo;
-    let high = s_hi * f32(TWO_OVER_LN2_HI);
-    let low = s_hi * f32(TWO_OVER_LN2_LO) + tail * f32(TWO_OVER_LN2_HI + TWO_OVER_LN2_LO);
+    let high = s_hi * TWO_OVER_LN2_HI;
+    let low = s_hi * TWO_OVER_LN2_LO + tail * (TWO_OVER_LN2_HI + TWO_OVER_LN2_LO);
     return vec3f(f32(exponent) + coarse, high, low + fine);
 }
 

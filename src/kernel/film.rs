@@ -32,7 +32,7 @@ pub fn add<R: Real>(world: &World, texel: &mut Texel, sample: &Sample<R>, index:
 /// To f32, with subnormals as 0: devices differ on them.
 pub fn flush<R: Real>(x: R) -> f32 {
     let f = x.to_f32();
-    if f.abs() < LEAST_NORMAL as f32 { 0.0 } else { f }
+    if f.abs() < LEAST_NORMAL { 0.0 } else { f }
 }
 
 /// A vector through [`flush`].

@@ -63,7 +63,7 @@ impl Transcendental for f32 {
 
 impl Transcendental for f64 {
     fn exp_neg(x: f64) -> f64 {
-        if x >= EXP_LIMIT { 0.0 } else { (-x).exp() }
+        if x >= f64::from(EXP_LIMIT) { 0.0 } else { (-x).exp() }
     }
 
     fn power(x: f64, y: f64) -> f64 {
@@ -78,12 +78,12 @@ impl Transcendental for f64 {
 
 /// See [`Transcendental::exp_neg`].
 pub fn exp_neg_f32(x: f32) -> f32 {
-    if x >= EXP_LIMIT as f32 {
+    if x >= EXP_LIMIT {
         return 0.0;
     }
     // Cody–Waite: x = n ln 2 + r, |r| ≤ ln 2 / 2, with an exact product by the upper bits.
-    let n = (x * LOG2_E as f32 + 0.5).floor();
-    let r = (x - n * LN2_HI as f32) - n * LN2_LO as f32;
+    let n = (x * LOG2_E + 0.5).floor();
+    let r = (x - n * LN2_HI) - n * LN2_LO;
     scale2(exp_poly(-r), -(n as i32))
 }
 
@@ -112,7 +112,7 @@ pub fn power_f32(x: f32, y: f32) -> f32 {
     }
     let n = (w + 0.5).floor();
     let r = (p - n) + q;
-    scale2(exp_poly(r * LN2 as f32), n as i32)
+    scale2(exp_poly(r * LN2), n as i32)
 }
 
 /// See [`Transcendental::arctangent`].
@@ -124,22 +124,22 @@ pub fn arctangent_f32(y: f32, x: f32) -> f32 {
         return 0.0;
     }
     // Fold to the first octant, then by π/4 below tan(π/8).
-    let folded = lo > hi * TAN_PI_8 as f32;
+    let folded = lo > hi * TAN_PI_8;
     let q = if folded { (lo - hi) / (lo + hi) } else { lo / hi };
     let mut base = 0.0;
     let mut angle = atan_poly(q);
     if folded {
-        base = PI_4_HI as f32;
-        angle = angle + PI_4_LO as f32;
+        base = PI_4_HI;
+        angle += PI_4_LO;
     }
     // Unfold, the small part apart to the end.
     if ay > ax {
-        base = 2.0 * PI_4_HI as f32 - base;
-        angle = 2.0 * PI_4_LO as f32 - angle;
+        base = 2.0 * PI_4_HI - base;
+        angle = 2.0 * PI_4_LO - angle;
     }
     if x < 0.0 {
-        base = 4.0 * PI_4_HI as f32 - base;
-        angle = 4.0 * PI_4_LO as f32 - angle;
+        base = 4.0 * PI_4_HI - base;
+        angle = 4.0 * PI_4_LO - angle;
     }
     let half = base + angle;
     if y < 0.0 { -half } else { half }
@@ -168,13 +168,13 @@ fn log2_parts(x: f32) -> [f32; 3] {
     // The nearest c, and its logarithm.
     let (mut c, mut coarse, mut fine) = (1.0, 0.0, 0.0);
     if m > 1.118 {
-        (c, coarse, fine) = (1.25, LOG2_5_4_HI as f32, LOG2_5_4_LO as f32);
+        (c, coarse, fine) = (1.25, LOG2_5_4_HI, LOG2_5_4_LO);
     }
     if m > 1.369 {
-        (c, coarse, fine) = (1.5, LOG2_3_2_HI as f32, LOG2_3_2_LO as f32);
+        (c, coarse, fine) = (1.5, LOG2_3_2_HI, LOG2_3_2_LO);
     }
     if m > 1.62 {
-        (c, coarse, fine) = (1.75, LOG2_7_4_HI as f32, LOG2_7_4_LO as f32);
+        (c, coarse, fine) = (1.75, LOG2_7_4_HI, LOG2_7_4_LO);
     }
     if m > 1.871 {
         (c, coarse, fine) = (2.0, 1.0, 0.0);
@@ -194,8 +194,8 @@ fn log2_parts(x: f32) -> [f32; 3] {
     p = p * z + 1.0 / 5.0;
     p = p * z + 1.0 / 3.0;
     let tail = s * z * p + s_lo;
-    let high = s_hi * TWO_OVER_LN2_HI as f32;
-    let low = s_hi * TWO_OVER_LN2_LO as f32 + tail * (TWO_OVER_LN2_HI + TWO_OVER_LN2_LO) as f32;
+    let high = s_hi * TWO_OVER_LN2_HI;
+    let low = s_hi * TWO_OVER_LN2_LO + tail * (TWO_OVER_LN2_HI + TWO_OVER_LN2_LO);
     [exponent as f32 + coarse, high, low + fine]
 }
 
