@@ -5,6 +5,8 @@
 pub enum Shared {
     /// `const NAME: u32`.
     U32(u32),
+    /// `const NAME: f32`.
+    F32(f32),
     /// `const NAME: real`: f32 or f64 by the precision of the variant.
     Real(f64),
 }
@@ -12,6 +14,12 @@ pub enum Shared {
 impl From<u32> for Shared {
     fn from(value: u32) -> Self {
         Self::U32(value)
+    }
+}
+
+impl From<f32> for Shared {
+    fn from(value: f32) -> Self {
+        Self::F32(value)
     }
 }
 
@@ -42,6 +50,18 @@ shared! {
     /// Interfaces without effect that a ray, or interfaces of any kind that a shadow ray, may pass;
     /// one that met this many is stuck and is cut.
     MAX_PASSES: u32 = 4096;
+    /// Rows of four in [`View::media`](super::View::media).
+    MEDIA_ROWS: u32 = MAX_MEDIA.div_ceil(4);
+    /// Rows of four in [`View::radiance_bound`](super::View::radiance_bound): 0 to `MAX_DEPTH` + 1 levels.
+    BOUND_ROWS: u32 = (MAX_DEPTH + 2).div_ceil(4);
+    /// Index of primary rays in counts by kind.
+    RAY_PRIMARY: u32 = 0;
+    /// Index of reflected rays in counts by kind.
+    RAY_REFLECTION: u32 = 1;
+    /// Index of refracted rays in counts by kind.
+    RAY_REFRACTION: u32 = 2;
+    /// Index of shadow rays in counts by kind.
+    RAY_SHADOW: u32 = 3;
     /// Marks an absent index.
     NONE: u32 = u32::MAX;
     /// Flag in [`Attribute::other`](super::Attribute::other): the second body's outside is on the other side.
@@ -72,25 +92,45 @@ shared! {
     HASH_MULTIPLIER: u32 = 0x915f_77f5;
 
     /// log2(e).
-    LOG2_E: f64 = std::f64::consts::LOG2_E;
+    LOG2_E: f32 = std::f32::consts::LOG2_E;
     /// Upper bits of ln 2: 12 bits, so that its product with a whole number below 2^12 is exact.
-    LN2_HI: f64 = 0.693_115_234_375;
+    LN2_HI: f32 = 0.69311523;
     /// ln 2 − [`LN2_HI`].
-    LN2_LO: f64 = 3.194_618_494_530_941_7e-5;
+    LN2_LO: f32 = 3.1946183e-05;
     /// ln 2.
-    LN2: f64 = std::f64::consts::LN_2;
+    LN2: f32 = std::f32::consts::LN_2;
     /// Upper 12 bits of 2/ln 2.
-    TWO_OVER_LN2_HI: f64 = 2.884_765_625;
+    TWO_OVER_LN2_HI: f32 = 2.8847656;
     /// 2/ln 2 − [`TWO_OVER_LN2_HI`].
-    TWO_OVER_LN2_LO: f64 = 6.244_567_779_268_147e-4;
+    TWO_OVER_LN2_LO: f32 = 0.0006244568;
+    /// Upper bits of log2(1.25): 12 after the point.
+    LOG2_5_4_HI: f32 = 0.32177734;
+    /// log2(1.25) − [`LOG2_5_4_HI`].
+    LOG2_5_4_LO: f32 = 0.00015075113;
+    /// Upper bits of log2(1.5): 12 after the point.
+    LOG2_3_2_HI: f32 = 0.58496094;
+    /// log2(1.5) − [`LOG2_3_2_HI`].
+    LOG2_3_2_LO: f32 = 1.5632212e-06;
+    /// Upper bits of log2(1.75): 12 after the point.
+    LOG2_7_4_HI: f32 = 0.8071289;
+    /// log2(1.75) − [`LOG2_7_4_HI`].
+    LOG2_7_4_LO: f32 = 0.0002260158;
+    /// π/4 rounded to f32.
+    PI_4_HI: f32 = 0.7853982;
+    /// π/4 − [`PI_4_HI`].
+    PI_4_LO: f32 = -2.1855694e-08;
     /// tan(π/8): beyond it the arctangent is reduced by π/4.
-    TAN_PI_8: f64 = 0.414_213_562_373_095_03;
+    TAN_PI_8: f32 = 0.41421357;
     /// π.
     PI: f64 = std::f64::consts::PI;
+    /// ln 2 to 53 bits, for the series in f64.
+    LN2_DOUBLE: f64 = std::f64::consts::LN_2;
     /// 1/π.
     INV_PI: f64 = std::f64::consts::FRAC_1_PI;
+    /// 2^-126: the least normal f32; the film keeps nothing below.
+    LEAST_NORMAL: f32 = 1.1754944e-38;
     /// exp(−x) of an f32 is below 2^-126 from here on, and returned as 0.
-    EXP_LIMIT: f64 = 87.0;
+    EXP_LIMIT: f32 = 87.0;
 }
 
 /// 2^-24 or 2^-53: the unit roundoff, injected as `ROUNDOFF`.
