@@ -73,5 +73,10 @@ pub trait Renderer {
     ///
     /// # Errors
     /// What the device reports: see the implementation.
-    fn render(&mut self, view: &View, settings: &Settings, progress: &dyn Progress) -> Result<Frame, Self::Error>;
+    fn render(
+        &mut self,
+        view: &View,
+        settings: &Settings,
+        progress: &dyn Progress,
+    ) -> Result<Frame, Self::Error>;
 }
