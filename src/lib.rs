@@ -4,6 +4,7 @@ pub mod bvh;
 pub mod cpu;
 pub mod film;
 pub mod flatten;
+pub mod gpu;
 pub mod kernel;
 pub mod layout;
 pub mod scene;

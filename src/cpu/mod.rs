@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use crate::film::{Frame, Progress, RayCounts, Renderer, TraceTimes};
 use crate::kernel::whitted::{Branch, trace_pixel};
 use crate::kernel::{Real, World};
-use crate::layout::{Aov, FlatScene, Precision, Settings, Texel, View};
+use crate::layout::{Aov, FlatScene, Float, Precision, Settings, Texel, View};
 
 /// Side of a tile in pixels: small enough to balance the end of a frame, large enough to amortise its bookkeeping.
 const TILE: u32 = 16;
@@ -84,6 +84,7 @@ fn render<R: Real>(world: &World, settings: &Settings, progress: &dyn Progress) 
         height,
         texels: vec![Texel::default(); pixels],
         aovs: settings.aovs.then(|| vec![Aov::default(); pixels]),
+        float: Float::Strict,
         rays: RayCounts::default(),
         times: TraceTimes::default(),
         complete: true,

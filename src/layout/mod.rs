@@ -8,10 +8,12 @@ mod effects;
 mod flat_scene;
 mod records;
 mod settings;
+mod tile;
 mod view;
 
 pub use effects::{Effect, Effects, Finding};
 pub use flat_scene::{Body, FlatScene, FlatTexture};
 pub use records::{Aov, Attribute, Corner, Light, Material, Node, Texel, Triangle};
 pub use settings::{Backend, Float, Intersector, Precision, Settings};
+pub use tile::{FilmHead, Tile};
 pub use view::View;

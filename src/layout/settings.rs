@@ -10,7 +10,7 @@ pub enum Backend {
 }
 
 /// The arithmetic of a trace.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Precision {
     /// 32 bits: fast, the same bits on every strict device.
     #[default]
@@ -20,7 +20,7 @@ pub enum Precision {
 }
 
 /// What a shader compiler may do to float arithmetic.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Float {
     /// Every operation as written: the CPU's bits.
     #[default]
@@ -30,7 +30,7 @@ pub enum Float {
 }
 
 /// The ray–triangle test.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Intersector {
     /// Woop, Benthin, Wald 2013: no ray passes between two triangles of an edge.
     #[default]
@@ -56,4 +56,19 @@ pub struct Settings {
     pub intersector: Intersector,
     /// Whether to fill [`Aov`](super::Aov)s.
     pub aovs: bool,
+}
+
+impl Default for Settings {
+    /// One strict, watertight f32 sample of a tree of depth 16, cut at a ten-thousandth.
+    fn default() -> Self {
+        Self {
+            depth: 16,
+            cutoff: 1e-4,
+            samples: 1,
+            precision: Precision::default(),
+            float: Float::default(),
+            intersector: Intersector::default(),
+            aovs: false,
+        }
+    }
 }
