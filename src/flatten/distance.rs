@@ -4,11 +4,12 @@ use glam::DVec3;
 
 use super::faces::corners;
 use super::number::widen3;
+use crate::layout::constants::{ROUNDOFF_F32, SPAWN_ROUNDOFFS};
 use crate::layout::{Attribute, Corner, FlatScene, Node, Triangle};
 
 /// The least distance at which a point light may find itself from a shaded point, in f64.
 ///
-/// Shading happens at points of the triangles, but shadow rays start up to the [`greatest_lift`] off them.
+/// Shading happens at points of the triangles, but shadow rays start up to [`greatest_lift`] off them.
 pub(super) fn least_distance(scene: &FlatScene, light: DVec3, lift: f64) -> f64 {
     let mut best = f64::INFINITY;
     // Boxes to look into: their distance, then what they hold as in a node.
@@ -31,13 +32,16 @@ pub(super) fn least_distance(scene: &FlatScene, light: DVec3, lift: f64) -> f64 
     (best - lift).max(0.0)
 }
 
-/// How far from its triangle a shadow ray may start: the height of the tangent planes of a smooth triangle's
-/// corners above its points (see `kernel::surface`). A height is linear over the triangle, so that the corners
-/// have the greatest; the starting point is a mean of the three lifted points.
+/// How far from its triangle a shadow ray may start (see the kernel's stop "surface"): the height of the tangent
+/// planes of a smooth triangle's corners above its points, and the bound on rounding that keeps it off the face.
 pub(super) fn greatest_lift(scene: &FlatScene) -> f64 {
-    scene.triangles.iter().map(|triangle| lift(scene, triangle)).fold(0.0, f64::max)
+    let [lo, hi] = scene.bounds.map(widen3);
+    let rounding = SPAWN_ROUNDOFFS * ROUNDOFF_F32 * lo.abs().max(hi.abs()).length();
+    rounding + scene.triangles.iter().map(|triangle| lift(scene, triangle)).fold(0.0, f64::max)
 }
 
+/// The greatest height of a corner's tangent plane above the triangle. A height is linear over the triangle, so
+/// that it is greatest at a corner; the starting point is a mean of three lifted points.
 fn lift(scene: &FlatScene, triangle: &Triangle) -> f64 {
     let first = scene.attributes[triangle.id as usize].corners;
     if first == Attribute::NONE {

@@ -8,6 +8,8 @@
 
 use std::time::{Duration, Instant};
 
+use glam::DVec3;
+
 use crate::bvh::{self, Preset, Statistics};
 use crate::layout::{FlatScene, FlatTexture, Light, Node, Triangle};
 use crate::scene::{Background, Diagnostic, Falloff, Model, Scene, SceneError};
@@ -67,6 +69,7 @@ pub struct Flattened {
 /// several media, more transmissive bodies than the media mask holds, coordinates beyond 2^60. The message
 /// names the model and its place in the file.
 pub fn flatten(scene: &Scene) -> Result<Flattened, SceneError> {
+    check_range("the camera", scene.camera.eye)?;
     let rows = Rows::new(scene);
     let mut bodies = Bodies::new(scene, &rows)?;
     let mut warnings = Vec::new();
@@ -170,16 +173,21 @@ fn count_triangles(bodies: &mut Bodies, faces: &Faces) {
 }
 
 fn light((index, light): (usize, &crate::scene::Light)) -> Result<Light, SceneError> {
-    if light.position.abs().max_element() > MAX_COORDINATE {
-        let message = format!("light {} stands beyond ±{MAX_COORDINATE:.2e}", index + 1);
-        return Err(Diagnostic::error(message).hint("bring it nearer").into());
-    }
+    check_range(&format!("light {}", index + 1), light.position)?;
     Ok(Light {
         position: narrow3(light.position),
         inverse_square: u32::from(light.falloff == Falloff::InverseSquare),
         intensity: narrow3(light.intensity),
         reserved: 0,
     })
+}
+
+fn check_range(what: &str, place: DVec3) -> Result<(), SceneError> {
+    if place.abs().max_element() <= MAX_COORDINATE {
+        return Ok(());
+    }
+    let message = format!("{what} stands beyond ±{MAX_COORDINATE:.2e}");
+    Err(Diagnostic::error(message).hint("bring it nearer").into())
 }
 
 /// A background picture, its turn and its intensity.
@@ -261,7 +269,12 @@ mod tests {
         }
         let mut scene = scene_of(vec![]);
         scene.lights = vec![lamp(DVec3::splat(1e30), 1.0, Falloff::None)];
-        assert!(flatten(&scene).is_err());
+        assert!(flatten(&scene).unwrap_err().diagnostics()[0].message.starts_with("light 1 stands beyond"));
+        let mut scene = scene_of(vec![]);
+        scene.camera.eye.y = -1e19;
+        assert!(
+            flatten(&scene).unwrap_err().diagnostics()[0].message.starts_with("the camera stands beyond")
+        );
     }
 
     #[test]

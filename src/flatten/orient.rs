@@ -154,6 +154,13 @@ fn report(model: &Model, rewound: usize, shells: &[Shell]) -> Vec<Diagnostic> {
         let message = format!("{wrong} of {} shells of `{}` were inside-out", shells.len(), model.name);
         warn(message, "they were turned: outer faces look outwards, the walls of a cavity into the cavity");
     }
+    if shells.iter().any(Shell::is_crossing) {
+        let message = format!("shells of `{}` run into each other", model.name);
+        warn(
+            message,
+            "where its matter lies twice, leaving it once is leaving it: make them separate models",
+        );
+    }
     warnings
 }
 
@@ -292,6 +299,14 @@ mod tests {
             (0..6).map(|k| DVec3::new(f64::from(k), f64::from(k * k), f64::from(k * k * k))).collect();
         let error = flattened(vec![model("strange", mesh(&positions, &triangles), ICE)]).unwrap_err();
         assert!(error.diagnostics()[0].message.contains("one-sided"));
+    }
+
+    #[test]
+    fn shells_that_cross_are_both_outer_ones_and_reported() {
+        let crossing = joined(&[cube(1.0), cuboid(DVec3::splat(0.5), DVec3::splat(2.0))]);
+        let flat = flattened(vec![model("clump", crossing, ICE)]).unwrap();
+        assert_eq!(messages(&flat), ["shells of `clump` run into each other"]);
+        assert_eq!(start_media(&flat.scene, [-0.5, 0.1, 0.2]) + start_media(&flat.scene, [1.5, 1.1, 1.2]), 2);
     }
 
     #[test]

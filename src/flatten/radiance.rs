@@ -83,7 +83,7 @@ mod tests {
 
     fn assert_close(found: f32, expected: f64) {
         assert!(
-            f64::from(found) >= expected && f64::from(found) <= expected * 1.000_001,
+            f64::from(found) >= expected && f64::from(found) <= expected * 1.000_01,
             "{found} {expected}"
         );
     }

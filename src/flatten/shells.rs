@@ -1,18 +1,21 @@
 //! The shells of a body, and how deep each lies within the others.
 
 use glam::DVec3;
-use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, IntoParallelRefIterator, ParallelIterator};
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use super::edges;
 use super::orient::Winding;
 use super::place::{Placed, bounds};
 use super::winding::winding_number;
 
-/// How many faces of a shell are asked, at most, whether another holds it.
+/// How many faces of a shell are asked, at most, whether they lie within another …
 const WITNESSES: usize = 64;
 
+/// … and how many clear answers are enough.
+const ANSWERS: usize = 8;
+
 /// Around a closed shell winding numbers are whole, up to rounding, except on the shell itself: one farther
-/// than this from a whole number leaves doubt.
+/// than this from a whole number is no clear answer.
 const DOUBT: f64 = 1e-3;
 
 /// Volumes below this part of the shell's box are rounding: such a shell encloses nothing.
@@ -27,6 +30,8 @@ pub(super) struct Shell {
     sign: i8,
     /// Number of other shells that hold it.
     depth: u32,
+    /// Whether it lies in part within another shell.
+    crossing: bool,
 }
 
 impl Shell {
@@ -34,7 +39,7 @@ impl Shell {
         let points: Vec<DVec3> = faces.iter().flatten().copied().collect();
         let bounds = bounds(&points);
         let sign = sign_of_volume(&faces, bounds);
-        Self { faces, bounds, sign, depth: 0 }
+        Self { faces, bounds, sign, depth: 0, crossing: false }
     }
 
     /// Whether its faces look into the matter.
@@ -43,9 +48,61 @@ impl Shell {
         self.sign == -right
     }
 
+    /// Whether part of it lies within a shell and part outside.
+    pub(super) fn is_crossing(&self) -> bool {
+        self.crossing
+    }
+
     fn may_hold(&self, point: DVec3) -> bool {
         point.cmpge(self.bounds[0]).all() && point.cmple(self.bounds[1]).all()
     }
+
+    fn may_meet(&self, other: &Self) -> bool {
+        self.bounds[0].cmple(other.bounds[1]).all() && other.bounds[0].cmple(self.bounds[1]).all()
+    }
+
+    /// Points on some of its faces, by turns at the centre and near a corner, from all over it (multiples of the
+    /// golden section are spread evenly).
+    fn witnesses(&self) -> impl Iterator<Item = DVec3> {
+        let count = self.faces.len();
+        (0..WITNESSES.min(count)).map(move |k| {
+            let place = (k as f64 * 0.618_033_988_749_894_9).fract() * count as f64;
+            let [a, b, c] = self.faces[(place as usize).min(count - 1)];
+            let centre = (a + b + c) / 3.0;
+            if k % 2 == 0 { centre } else { a + (centre - a) / 16.0 }
+        })
+    }
+
+    /// Where it lies as seen from another shell.
+    fn relation(&self, other: &Self) -> Relation {
+        let (mut inside, mut outside) = (0, 0);
+        for point in self.witnesses() {
+            if !other.may_hold(point) {
+                outside += 1;
+            } else {
+                let number = winding_number(point, other.faces.iter().copied()).abs();
+                let clear = (number - number.round()).abs() < DOUBT;
+                inside += usize::from(clear && number > 0.5);
+                outside += usize::from(clear && number < 0.5);
+            }
+            if inside + outside >= ANSWERS {
+                break;
+            }
+        }
+        match (inside, outside) {
+            (0, _) => Relation::Outside,
+            (_, 0) => Relation::Inside,
+            _ => Relation::Across,
+        }
+    }
+}
+
+/// Where a shell lies as seen from another.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Relation {
+    Outside,
+    Inside,
+    Across,
 }
 
 /// Take a body apart into its shells and find how deep each lies.
@@ -56,40 +113,24 @@ pub(super) fn find_shells(placed: &Placed, winding: &Winding) -> Vec<Shell> {
         faces[shell as usize].push(if winding.turned[index] { [a, c, b] } else { [a, b, c] });
     }
     let mut shells: Vec<Shell> = faces.into_par_iter().map(Shell::new).collect();
-    let depths: Vec<u32> = (0..shells.len()).into_par_iter().map(|index| depth(index, &shells)).collect();
-    shells.iter_mut().zip(depths).for_each(|(shell, depth)| shell.depth = depth);
+    let places: Vec<(u32, bool)> =
+        (0..shells.len()).into_par_iter().map(|index| place(index, &shells)).collect();
+    for (shell, (depth, crossing)) in shells.iter_mut().zip(places) {
+        (shell.depth, shell.crossing) = (depth, crossing);
+    }
     shells
 }
 
-/// The number of other shells that hold a shell, judged at the centre of a face that lies on none of them, or
-/// is the farthest from doubt of those that are asked.
-fn depth(index: usize, shells: &[Shell]) -> u32 {
-    let faces = &shells[index].faces;
-    let step = faces.len().div_ceil(WITNESSES).max(1);
-    let mut best = (f64::INFINITY, 0);
-    for [a, b, c] in faces.iter().step_by(step) {
-        let (doubt, depth) = ask((a + b + c) / 3.0, index, shells);
-        if doubt < best.0 {
-            best = (doubt, depth);
-        }
-        if doubt < DOUBT {
-            break;
-        }
-    }
-    best.1
-}
-
-/// How far the winding numbers of the other shells around a point are from whole ones, at most, and how many
-/// of them hold it.
-fn ask(point: DVec3, index: usize, shells: &[Shell]) -> (f64, u32) {
+/// How many other shells hold a shell, and whether it crosses one.
+fn place(index: usize, shells: &[Shell]) -> (u32, bool) {
+    let shell = &shells[index];
     let others =
-        shells.par_iter().enumerate().filter(|&(other, shell)| other != index && shell.may_hold(point));
-    others
-        .map(|(_, shell)| {
-            let number = winding_number(point, shell.faces.iter().copied()).abs();
-            ((number - number.round()).abs(), u32::from(number > 0.5))
-        })
-        .reduce(|| (0.0, 0), |a, b| (a.0.max(b.0), a.1 + b.1))
+        shells.iter().enumerate().filter(|&(other, candidate)| other != index && candidate.may_meet(shell));
+    others.fold((0, false), |(depth, crossing), (_, other)| match shell.relation(other) {
+        Relation::Outside => (depth, crossing),
+        Relation::Inside => (depth + 1, crossing),
+        Relation::Across => (depth, true),
+    })
 }
 
 /// The sign of the enclosed volume by the divergence theorem: one sixth of the sum of a·(b × c).

@@ -18,25 +18,61 @@ const CHUNK: usize = 4096;
 /// Triple products below this part of the product of the lengths are rounding (their bound is a few 2^-53).
 const IN_PLANE: f64 = 1e-14;
 
-/// The signed solid angle of a triangle seen from a point, in (−2π, 2π): positive where its back is seen, as
-/// from inside a body (van Oosterom and Strackee 1983, "The solid angle of a plane triangle", equation 8).
-/// From a point in its plane nothing is seen of it, so that the points of a closed surface lie half inside.
-pub(super) fn solid_angle(point: DVec3, corners: [DVec3; 3]) -> f64 {
-    let [a, b, c] = corners.map(|corner| corner - point);
-    let (la, lb, lc) = (a.length(), b.length(), c.length());
-    let sine = a.dot(b.cross(c));
-    let product = la * lb * lc;
-    if sine.abs() <= IN_PLANE * product {
-        return 0.0;
-    }
-    let cosine = product + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-    2.0 * sine.atan2(cosine)
+/// Adds up how often a surface winds around a point: 1 inside a body, 0 outside, in between near holes
+/// (Jacobson, Kavan, Sorkine-Hornung 2013, "Robust inside-outside segmentation using generalized winding
+/// numbers").
+///
+/// Half the solid angle of a triangle is the argument of a complex number; instead of adding arguments this
+/// multiplies the numbers and counts how often the product passes the negative real axis.
+#[derive(Clone, Copy)]
+struct Winding {
+    /// The product so far, at a magnitude of about 1.
+    re: f64,
+    im: f64,
+    /// Half turns' pairs that the product's argument, in (−π, π], does not show.
+    turns: f64,
 }
 
-/// How often a surface winds around a point: 1 inside a body, 0 outside, in between near holes (Jacobson,
-/// Kavan, Sorkine-Hornung 2013, "Robust inside-outside segmentation using generalized winding numbers").
+impl Winding {
+    const NONE: Self = Self { re: 1.0, im: 0.0, turns: 0.0 };
+
+    /// Add a triangle, its corners counter-clockwise from outside (van Oosterom and Strackee 1983, "The solid
+    /// angle of a plane triangle", equation 8).
+    ///
+    /// From a point in its plane nothing is seen of it, so that the points of a closed surface are half inside.
+    fn add(&mut self, point: DVec3, corners: [DVec3; 3]) {
+        let [a, b, c] = corners.map(|corner| corner - point);
+        let (la, lb, lc) = (a.length(), b.length(), c.length());
+        let product = la * lb * lc;
+        let im = a.dot(b.cross(c));
+        if im.abs() <= IN_PLANE * product {
+            return;
+        }
+        let re = product + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+        let scale = 1.0 / (re.abs() + im.abs());
+        let (re, im) = (re * scale, im * scale);
+        let next = (self.re * re - self.im * im, self.re * im + self.im * re);
+        // Two arguments of one sign add up beyond π where their sum appears with the other sign.
+        if self.im >= 0.0 && im > 0.0 && next.1 < 0.0 {
+            self.turns += 1.0;
+        } else if self.im < 0.0 && im < 0.0 && next.1 >= 0.0 {
+            self.turns -= 1.0;
+        }
+        let scale = 1.0 / (next.0.abs() + next.1.abs());
+        (self.re, self.im) = (next.0 * scale, next.1 * scale);
+    }
+
+    /// The winding number: the sum of the solid angles over 4π.
+    fn number(&self) -> f64 {
+        self.turns + self.im.atan2(self.re) / TAU
+    }
+}
+
+/// The winding number of a surface around a point; see [`Winding`].
 pub(super) fn winding_number(point: DVec3, faces: impl Iterator<Item = [DVec3; 3]>) -> f64 {
-    faces.map(|corners| solid_angle(point, corners)).sum::<f64>() / (2.0 * TAU)
+    let mut winding = Winding::NONE;
+    faces.for_each(|corners| winding.add(point, corners));
+    winding.number()
 }
 
 /// The media mask at a point: the bit of each transmissive body that holds it. A point on a face counts as
@@ -74,15 +110,16 @@ fn boxes(scene: &FlatScene, count: usize) -> [[DVec3; 2]; MAX_MEDIA as usize] {
 /// The winding number of each candidate body around a point; 0 for the others.
 fn winding_numbers(scene: &FlatScene, eye: DVec3, candidates: &[bool]) -> [f64; MAX_MEDIA as usize] {
     let sum_up = |triangles: &[Triangle]| {
-        let mut numbers = [0.0; MAX_MEDIA as usize];
+        let mut windings = [Winding::NONE; MAX_MEDIA as usize];
         for triangle in triangles {
-            for (body, sign) in walls(scene, triangle).into_iter().flatten() {
+            for (body, outward) in walls(scene, triangle).into_iter().flatten() {
                 if candidates.get(body).is_some_and(|&candidate| candidate) {
-                    numbers[body] += sign * solid_angle(eye, corners(triangle)) / (2.0 * TAU);
+                    let [a, b, c] = corners(triangle);
+                    windings[body].add(eye, if outward { [a, b, c] } else { [a, c, b] });
                 }
             }
         }
-        numbers
+        windings.map(|winding| winding.number())
     };
     let parts: Vec<[f64; MAX_MEDIA as usize]> = scene.triangles.par_chunks(CHUNK).map(sum_up).collect();
     parts
@@ -90,14 +127,12 @@ fn winding_numbers(scene: &FlatScene, eye: DVec3, candidates: &[bool]) -> [f64; 
         .fold([0.0; MAX_MEDIA as usize], |sum, part| std::array::from_fn(|body| sum[body] + part[body]))
 }
 
-/// The bodies whose surface a triangle belongs to, each with 1 where the face looks out of its matter, else −1.
-fn walls(scene: &FlatScene, triangle: &Triangle) -> [Option<(usize, f64)>; 2] {
+/// The bodies whose surface a triangle belongs to, each with whether the face looks out of its matter.
+fn walls(scene: &FlatScene, triangle: &Triangle) -> [Option<(usize, bool)>; 2] {
     let face = &scene.attributes[triangle.id as usize];
-    let other = (face.other != Attribute::NONE).then(|| {
-        let sign = if face.other & Attribute::OPPOSITE == 0 { 1.0 } else { -1.0 };
-        ((face.other & !Attribute::OPPOSITE) as usize, sign)
-    });
-    [Some((face.body as usize, 1.0)), other]
+    let outward = face.other & Attribute::OPPOSITE == 0;
+    let other = ((face.other & !Attribute::OPPOSITE) as usize, outward);
+    [Some((face.body as usize, true)), (face.other != Attribute::NONE).then_some(other)]
 }
 
 fn holds([lo, hi]: [DVec3; 2], point: DVec3) -> bool {
@@ -110,9 +145,22 @@ mod tests {
 
     #[test]
     fn an_octant_is_an_eighth_of_the_sphere() {
-        let angle = solid_angle(DVec3::ZERO, [DVec3::X, DVec3::Y, DVec3::Z]);
-        assert!((angle - TAU / 4.0).abs() < 1e-15);
-        assert!((solid_angle(DVec3::ZERO, [DVec3::X, DVec3::Z, DVec3::Y]) + TAU / 4.0).abs() < 1e-15);
+        let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z];
+        assert!((winding_number(DVec3::ZERO, [[x, y, z]].into_iter()) - 0.125).abs() < 1e-15);
+        assert!((winding_number(DVec3::ZERO, [[x, z, y]].into_iter()) + 0.125).abs() < 1e-15);
+    }
+
+    #[test]
+    fn surfaces_that_wind_often_are_counted_in_full() {
+        let [o, x, y, z] = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+        let once = [[o, y, x], [o, z, y], [o, x, z], [x, y, z]];
+        let point = DVec3::new(0.1, 0.2, 0.3);
+        for times in [1, 2, 3, 10] {
+            let outward = once.into_iter().cycle().take(4 * times);
+            assert!((winding_number(point, outward.clone()) - times as f64).abs() < 1e-12);
+            let inward = outward.map(|[a, b, c]| [a, c, b]);
+            assert!((winding_number(point, inward) + times as f64).abs() < 1e-12);
+        }
     }
 
     #[test]
