@@ -6,6 +6,7 @@
 mod constants;
 mod devices;
 mod layout;
+mod pictures;
 mod scene;
 mod strict;
 mod twins;
