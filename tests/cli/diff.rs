@@ -21,7 +21,10 @@ fn write(path: &Path, picture: &Picture) {
 fn equal_pictures_pass_with_exactly_the_contract_s_fields() {
     let folder = folder();
     write_rgb(&folder.path().join("a.exr"), 0.5);
-    let run = snellius(folder.path(), "diff a.exr a.exr --json --fail-above differing_pixels=0 --fail-above flip=0");
+    let run = snellius(
+        folder.path(),
+        "diff a.exr a.exr --json --fail-above differing_pixels=0 --fail-above flip=0",
+    );
     assert_eq!(run.code, 0, "{}", run.stderr);
     let expected = serde_json::json!({
         "rmse": 0.0, "max": 0.0, "psnr": null, "flip": 0.0, "differing_pixels": 0, "pixels": 4
@@ -35,7 +38,8 @@ fn one_bit_fails_the_comparison_and_the_metric_is_named() {
     let folder = folder();
     write_rgb(&folder.path().join("a.exr"), 0.5);
     write_rgb(&folder.path().join("b.exr"), 0.5_f32.next_up());
-    let run = snellius(folder.path(), "diff a.exr b.exr --fail-above differing_pixels=0 --fail-above rmse=0.1");
+    let run =
+        snellius(folder.path(), "diff a.exr b.exr --fail-above differing_pixels=0 --fail-above rmse=0.1");
     assert_eq!(run.code, 1);
     assert!(run.text().contains("differing pixels  1 of 4"), "{}", run.text());
     assert_eq!(run.stderr, "differing_pixels is 1, above 0\n");
@@ -73,7 +77,10 @@ fn pictures_that_cannot_be_compared_are_usage_errors() {
         ("diff a.exr wide.exr", "the pictures differ in size: 2×2 and 3×1"),
         ("diff a.exr nowhere.exr", "cannot read the picture nowhere.exr"),
         ("diff a.exr broken.png", "cannot read the picture broken.png"),
-        ("diff a.exr a.exr --fail-above ssim=1", "no such metric; there are rmse, max, flip, differing_pixels"),
+        (
+            "diff a.exr a.exr --fail-above ssim=1",
+            "no such metric; there are rmse, max, flip, differing_pixels",
+        ),
         ("diff a.exr a.exr -o d.exr", "the picture of the differences is a PNG"),
         ("diff a.exr a.exr -o - --json", "both want standard output"),
     ] {

@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 use super::{command, files_in, folder, snellius};
 
 /// A glass ball on a floor.
-const SCENE: &str = r#"
+const SCENE: &str = r##"
 [camera]
 eye = [0, 1, 4]
 target = [0, 0.5, 0]
@@ -39,7 +39,7 @@ translate = [0, 0.9, 0]
 shape = { box = { size = [6, 0.2, 6] } }
 material = "floor"
 translate = [0, -0.1, 0]
-"#;
+"##;
 
 /// A folder with the scene in it.
 fn scene_folder() -> tempfile::TempDir {
@@ -74,7 +74,8 @@ fn a_render_writes_its_picture_and_nothing_else() {
 #[test]
 fn the_report_tells_settings_device_rays_and_times() {
     let folder = scene_folder();
-    let run = snellius(folder.path(), "render ball.toml --json --backend cpu --threads 1 --depth 3 --size 8x4 -q");
+    let run =
+        snellius(folder.path(), "render ball.toml --json --backend cpu --threads 1 --depth 3 --size 8x4 -q");
     assert_eq!(run.code, 0, "{}", run.stderr);
     let json = run.json();
     assert_eq!((&json["backend"], &json["driver"]), (&"cpu".into(), &"rayon, 1 threads".into()));
@@ -130,7 +131,8 @@ fn the_number_of_threads_never_shows() {
 fn every_aov_has_an_exact_file_and_a_preview() {
     let folder = scene_folder();
     let names = snellius::film::AovKind::ALL.map(|kind| kind.name());
-    let flags: String = names.iter().map(|name| format!(" --aov {name}={name}.exr --aov {name}={name}.png")).collect();
+    let flags: String =
+        names.iter().map(|name| format!(" --aov {name}={name}.exr --aov {name}={name}.png")).collect();
     let run = snellius(folder.path(), &format!("render ball.toml --backend cpu{flags}"));
     assert_eq!(run.code, 0, "{}", run.stderr);
     assert_eq!(files_in(folder.path()).len(), 1 + 2 * names.len());
@@ -147,7 +149,7 @@ fn a_broken_scene_is_told_with_its_place_and_leaves_no_picture() {
     for line in ["render ball.toml -o ball.png", "check ball.toml", "render ball.toml --json"] {
         let run = snellius(folder.path(), line);
         assert_eq!(run.code, 2, "{line}");
-        assert!(run.stderr.contains("ball.toml:24:"), "{line}: {}", run.stderr);
+        assert!(run.stderr.contains("ball.toml:20:"), "{line}: {}", run.stderr);
         assert!(run.stdout.is_empty(), "{line}");
     }
     assert_eq!(files_in(folder.path()), ["ball.toml"]);
@@ -168,7 +170,9 @@ fn check_lists_bodies_media_buffers_and_effects_with_reasons() {
     assert_eq!(json["bodies"].as_array().map(Vec::len), Some(2));
     assert_eq!(json["media"][0]["ior"], 1.5);
     let text = snellius(folder.path(), "check ball.toml").text();
-    for part in ["glass", "ior 1.5", "bytes", "nodes, depth", "absorption       on: ", "textures         off: "] {
+    for part in
+        ["glass", "ior 1.5", "bytes", "nodes, depth", "absorption       on: ", "textures         off: "]
+    {
         assert!(text.contains(part), "{part} in\n{text}");
     }
 }
