@@ -110,7 +110,7 @@ mod tests {
         camera(&document.camera.unwrap(), &source)
     }
 
-    fn fault(keys: &str) -> (String, usize, usize) {
+    fn fault(keys: &str) -> (String, u32, u32) {
         let diagnostic = read(keys).unwrap_err();
         let place = diagnostic.location.unwrap();
         (diagnostic.message, place.line, place.column)

@@ -70,7 +70,7 @@ mod tests {
 
     use super::*;
 
-    fn fault(text: &str) -> (String, usize, usize, String) {
+    fn fault(text: &str) -> (String, u32, u32, String) {
         let source = Source::new(Path::new("a.toml"), text.into());
         let error = parse(&source).unwrap_err();
         let diagnostic = &error.diagnostics()[0];

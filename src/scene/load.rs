@@ -155,3 +155,7 @@ fn from_mesh(path: &Path) -> Result<Scene, SceneError> {
         warnings: materials.warnings,
     })
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests;

@@ -55,8 +55,8 @@ impl Models {
         let place = location.clone();
         let table = table.get_ref();
         let (name, mesh, materials) = match (&table.mesh, &table.shape) {
-            (Some(file), None) => self.from_file(file, table, scene)?,
-            (None, Some(shape)) => from_shape(shape, table, scene)?,
+            (Some(file), None) => self.of_file(file, table, scene)?,
+            (None, Some(shape)) => of_shape(shape, table, scene)?,
             (Some(_), Some(shape)) => {
                 let place = scene.source.locate(shape.span());
                 return Err(Diagnostic::error("the model has both a mesh and a shape").at(place).into());
@@ -97,7 +97,7 @@ impl Models {
         Ok((loaded.mesh, loaded.obj))
     }
 
-    fn from_file(
+    fn of_file(
         &mut self,
         file: &Spanned<String>,
         table: &ModelTable,
@@ -143,7 +143,7 @@ pub(super) fn stem(path: &Path) -> String {
     path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
-fn from_shape(
+fn of_shape(
     shape: &Spanned<Shape>,
     table: &ModelTable,
     scene: &mut Surroundings<'_>,

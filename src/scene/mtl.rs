@@ -119,10 +119,9 @@ fn fraction(statement: &Statement<'_>) -> Result<f64, SceneError> {
 }
 
 fn illumination(statement: &Statement<'_>) -> Result<u8, SceneError> {
-    let model = statement.rest.parse().ok().filter(|model| *model <= 10);
-    model.ok_or_else(|| {
-        let fault =
-            statement.fault(statement.rest, format!("`{}` is not an illumination model", statement.rest));
+    let word = statement.words().next().unwrap_or(statement.keyword);
+    word.parse().ok().filter(|model| *model <= 10).ok_or_else(|| {
+        let fault = statement.fault(word, format!("`{word}` is not an illumination model"));
         fault.hint("`illum` is a whole number from 0 to 10").into()
     })
 }

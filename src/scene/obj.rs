@@ -276,7 +276,7 @@ mod tests {
     }
 
     /// Message, line after the square, and column of the fault.
-    fn fault(faces: &str) -> (String, usize, usize) {
+    fn fault(faces: &str) -> (String, u32, u32) {
         let error = parse(&source(&format!("{SQUARE}{faces}"))).unwrap_err();
         let diagnostic = &error.diagnostics()[0];
         let place = diagnostic.location.clone().unwrap();

@@ -61,9 +61,9 @@ impl Source {
         let end = self.text.floor_char_boundary(span.end).clamp(start, line_end);
         Location {
             file: self.path.clone(),
-            line: number,
-            column: self.text[line_start..start].chars().count() + 1,
-            length: self.text[start..end].chars().count().max(1),
+            line: number as u32,
+            column: self.text[line_start..start].chars().count() as u32 + 1,
+            length: (self.text[start..end].chars().count() as u32).max(1),
             text: line.chars().take(MAX_SHOWN).collect(),
         }
     }
