@@ -214,3 +214,48 @@ pub(super) fn world_bounds(model: &Model) -> [DVec3; 2] {
     }
     [bounds[0] + last.min(DVec3::ZERO), bounds[1] + last.max(DVec3::ZERO)]
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::scene::{Normals, fault};
+
+    fn table(keys: &str) -> ModelTable {
+        let source = Source::new(Path::new("a.toml"), format!("[[model]]\n{keys}"));
+        fault::parse(&source).unwrap().model.remove(0).into_inner()
+    }
+
+    #[test]
+    fn a_model_is_scaled_then_turned_about_x_y_z_then_moved() {
+        let world_from_object =
+            transform(&table("scale = [2, 1, 1]\nrotate = [90, 0, 90]\ntranslate = [0, 0, 5]"));
+        let placed = |point| world_from_object.transform_point3(point);
+        assert!((placed(DVec3::X) - DVec3::new(0.0, 2.0, 5.0)).length() < 1e-15);
+        assert!((placed(DVec3::Y) - DVec3::new(0.0, 0.0, 6.0)).length() < 1e-15);
+        assert!((placed(DVec3::Z) - DVec3::new(1.0, 0.0, 5.0)).length() < 1e-15);
+    }
+
+    #[test]
+    fn bounds_enclose_every_copy() {
+        let mesh = Mesh { positions: vec![DVec3::ZERO, DVec3::ONE], ..Mesh::default() };
+        let model = Model {
+            name: String::new(),
+            mesh: Arc::new(mesh),
+            materials: Vec::new(),
+            priority: 0,
+            world_from_object: DAffine3::IDENTITY,
+            normals: Normals::File,
+            repeat: Repeat { count: [3, 2, 1], step: DVec3::new(2.0, -1.0, 9.0) },
+            location: None,
+        };
+        assert_eq!(world_bounds(&model), [DVec3::new(0.0, -1.0, 0.0), DVec3::new(5.0, 1.0, 1.0)]);
+    }
+
+    #[test]
+    fn namesakes_are_numbered() {
+        let mut models = Models::default();
+        let names = ["box", "ball", "box", "box"].map(|name| models.unique(name.into()));
+        assert_eq!(names, ["box", "ball", "box 2", "box 3"]);
+    }
+}

@@ -66,8 +66,7 @@ fn read(path: &Path) -> Result<Texture, Diagnostic> {
     let reader = ImageReader::new(BufReader::new(file));
     let mut reader = reader.with_guessed_format().map_err(|error| broken(error.into()))?;
     reader.limits(limits());
-    let mut decoder = reader.into_decoder().map_err(broken)?;
-    decoder.set_limits(limits()).map_err(broken)?;
+    let decoder = reader.into_decoder().map_err(broken)?;
     let (width, height) = decoder.dimensions();
     if width == 0 || height == 0 || u64::from(width) * u64::from(height) > MAX_PIXELS {
         let message = format!("{} has {width} × {height} pixels; the most is {MAX_PIXELS}", path.display());

@@ -423,3 +423,56 @@ fn texture_coordinates_survive_the_way() {
     let scene = load(&[("a.obj", mesh)]);
     assert_eq!(scene.models[0].mesh.uvs, [DVec2::new(0.25, 0.75)]);
 }
+
+/// A small generator of reproducible numbers (Marsaglia 2003, xorshift).
+fn next(state: &mut u64) -> usize {
+    *state ^= *state << 13;
+    *state ^= *state >> 7;
+    *state ^= *state << 17;
+    *state as usize
+}
+
+/// Overwrite, drop or repeat a few bytes.
+fn mutate(text: &str, state: &mut u64) -> Vec<u8> {
+    const BYTES: &[u8] = b"0123456789-+.e/\\ \n\r\t#[]{}=\"',_anif\xff\x00\xc3";
+    let mut bytes = text.as_bytes().to_vec();
+    for _ in 0..1 + next(state) % 4 {
+        let at = next(state) % bytes.len();
+        match next(state) % 4 {
+            0 => bytes.truncate(at + 1),
+            1 => bytes.insert(at, BYTES[next(state) % BYTES.len()]),
+            _ => bytes[at] = BYTES[next(state) % BYTES.len()],
+        }
+    }
+    bytes
+}
+
+#[test]
+fn mutated_files_load_or_fail_without_panic() {
+    let scene = "[camera]\neye = [0.5, 1e0, 5]\ntarget = [0, 0, 0]\n[background]\ncolor = \"#fff3e0\"\n[material.a]\n\
+                 transmission = [1, 0.5, 0]\n[[model]]\nmesh = 'a.obj'\nnormals = 30\n[[model]]\nshape = { rounded_box = \
+                 { size = [1, 2, 3], radius = 0.1, level = 1 } }\nmaterial = 'a'\nrepeat = { count = [2, 1, 1], step = [1, 0, 0] }\n";
+    let mesh = "mtllib a.mtl\nusemtl glass\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0.2 1 0\nvn 0 0 1\nvt 0 0.5\n\
+                f -4/1/1 2/1/1 3/1/1 \\\n4/1/1 # quad\n";
+    let library = "newmtl glass\nKd 1 1 1\nNs 20\nd 0.5\nillum 7\n";
+    let originals = [("a.toml", scene), ("a.obj", mesh), ("a.mtl", library)];
+    let files = files(&originals);
+    Scene::load(&files.first).unwrap();
+    let mut state = 0x9e37_79b9_7f4a_7c15;
+    let (mut loaded, mut failed) = (0, 0);
+    for (name, text) in originals {
+        let path = files.directory.path().join(name);
+        for _ in 0..300 {
+            fs::write(&path, mutate(text, &mut state)).unwrap();
+            match Scene::load(&files.first) {
+                Ok(_) => loaded += 1,
+                Err(error) => {
+                    assert!(error.to_string().starts_with("error: "));
+                    failed += 1;
+                }
+            }
+        }
+        fs::write(&path, text).unwrap();
+    }
+    assert!(loaded > 50 && failed > 50, "{loaded} loaded, {failed} failed");
+}
