@@ -17,7 +17,7 @@ use super::{Diagnostic, MaterialId, Mesh, Model, Repeat, SceneError};
 /// The most triangles of a scene, copies included: a bound on memory, not on devices.
 const MAX_TRIANGLES: u64 = 1 << 25;
 
-/// What models share while they are read.
+/// The models read so far.
 #[derive(Debug, Default)]
 pub(super) struct Models {
     /// In file order.
@@ -36,12 +36,12 @@ struct LoadedMesh {
     obj: Arc<Obj>,
 }
 
-/// What a model needs of the rest of the scene.
-pub(super) struct Surroundings<'a> {
+/// What the parts of a scene file share while they are read.
+pub(super) struct Shared<'a> {
     pub(super) source: &'a Source,
     pub(super) directory: &'a Path,
-    pub(super) materials: &'a mut Materials,
-    pub(super) textures: &'a mut Textures,
+    pub(super) materials: Materials,
+    pub(super) textures: Textures,
 }
 
 impl Models {
@@ -49,7 +49,7 @@ impl Models {
     pub(super) fn define(
         &mut self,
         table: &Spanned<ModelTable>,
-        scene: &mut Surroundings<'_>,
+        scene: &mut Shared<'_>,
     ) -> Result<(), SceneError> {
         let location = scene.source.locate(table.span());
         let place = location.clone();
@@ -101,7 +101,7 @@ impl Models {
         &mut self,
         file: &Spanned<String>,
         table: &ModelTable,
-        scene: &mut Surroundings<'_>,
+        scene: &mut Shared<'_>,
     ) -> Result<(String, Arc<Mesh>, Vec<MaterialId>), SceneError> {
         let path = scene.directory.join(file.get_ref());
         let place = || scene.source.locate(file.span());
@@ -109,7 +109,7 @@ impl Models {
         let (mesh, obj) = self.read(&path)?;
         let materials = match &table.material {
             Some(name) => vec![scene.materials.named(name, scene.source)?; obj.slots.len()],
-            None => scene.materials.of_mesh(&obj, &path, scene.textures, |_| {
+            None => scene.materials.of_mesh(&obj, &path, &mut scene.textures, |_| {
                 Err(Diagnostic::error(format!("{} has faces without a material", path.display()))
                     .at(place())
                     .hint("give the model a `material`"))
@@ -146,7 +146,7 @@ pub(super) fn stem(path: &Path) -> String {
 fn of_shape(
     shape: &Spanned<Shape>,
     table: &ModelTable,
-    scene: &mut Surroundings<'_>,
+    scene: &mut Shared<'_>,
 ) -> Result<(String, Arc<Mesh>, Vec<MaterialId>), SceneError> {
     let place = || scene.source.locate(shape.span());
     let Some(name) = &table.material else {

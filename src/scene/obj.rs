@@ -235,7 +235,7 @@ fn texture_coordinate(statement: &Statement<'_>) -> Result<DVec2, SceneError> {
 }
 
 /// Read the name after a keyword; it may hold spaces.
-fn reference(statement: &Statement<'_>) -> Result<Reference, SceneError> {
+pub(super) fn reference(statement: &Statement<'_>) -> Result<Reference, SceneError> {
     if statement.rest.is_empty() {
         let message = format!("`{}` needs a name", statement.keyword);
         return Err(statement.fault(statement.keyword, message).into());

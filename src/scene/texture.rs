@@ -137,6 +137,13 @@ mod tests {
     }
 
     #[test]
+    fn jpeg_is_srgb8() {
+        let grey = DynamicImage::ImageRgb8(image::ImageBuffer::from_pixel(8, 8, image::Rgb([128; 3])));
+        let (_directory, path) = picture("a.jpg", &grey);
+        assert_eq!(read(&path).unwrap().pixels, Pixels::Srgb8(vec![[128; 3]; 64]));
+    }
+
+    #[test]
     fn exr_and_hdr_are_linear() {
         for name in ["a.exr", "a.hdr"] {
             let (_directory, path) = picture(name, &linear(vec![4.0, 0.5, 0.0]));
