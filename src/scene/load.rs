@@ -11,6 +11,7 @@ use super::error::Faults;
 use super::material::{self, Materials};
 use super::model::{Models, Shared, stem};
 use super::source::Source;
+use super::table::Table;
 use super::texture::Textures;
 use super::{
     Background, Camera, Diagnostic, Model, Normals, RenderDefaults, Repeat, Scene, SceneError, camera,
@@ -78,7 +79,7 @@ fn from_toml(source: &Source) -> Result<Scene, SceneError> {
         render: render_defaults(&document.render),
         ambient: surroundings::ambient(document.ambient.as_ref()),
         background: background.flatten().unwrap_or(Background::Color(DVec3::ZERO)),
-        lights: document.light.iter().map(surroundings::light).collect(),
+        lights: document.light.iter().map(|table| surroundings::light(table)).collect(),
         materials,
         textures: shared.textures.list,
         models: models.list,
@@ -88,7 +89,7 @@ fn from_toml(source: &Source) -> Result<Scene, SceneError> {
 
 /// The camera as given, or a view of the models. A camera with a basis of its own gets its pivot where it
 /// passes the middle of the models.
-fn aim(given: Option<Camera>, table: Option<&Spanned<CameraTable>>, models: &[Model]) -> Camera {
+fn aim(given: Option<Camera>, table: Option<&Spanned<Table<CameraTable>>>, models: &[Model]) -> Camera {
     let has_target = table.is_some_and(|table| table.get_ref().target.is_some());
     match given {
         None => default_view::camera(default_view::bounding_ball(models)),

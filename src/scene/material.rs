@@ -150,7 +150,7 @@ impl Materials {
 
 /// The materials of the document, in the order of the file.
 pub(super) fn in_file_order(document: &Document) -> Vec<(&Spanned<String>, &MaterialTable)> {
-    let mut materials: Vec<_> = document.material.iter().collect();
+    let mut materials: Vec<_> = document.material.iter().map(|(name, table)| (name, &**table)).collect();
     materials.sort_by_key(|(name, _)| name.span().start);
     materials
 }

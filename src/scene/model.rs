@@ -11,6 +11,7 @@ use super::document::{ModelTable, RepeatTable, Shape};
 use super::material::Materials;
 use super::obj::{self, Obj};
 use super::source::Source;
+use super::table::Table;
 use super::texture::Textures;
 use super::{Diagnostic, MaterialId, Mesh, Model, Repeat, SceneError};
 
@@ -48,7 +49,7 @@ impl Models {
     /// Add the model of a table.
     pub(super) fn define(
         &mut self,
-        table: &Spanned<ModelTable>,
+        table: &Spanned<Table<ModelTable>>,
         scene: &mut Shared<'_>,
     ) -> Result<(), SceneError> {
         let location = scene.source.locate(table.span());
@@ -174,7 +175,7 @@ fn transform(table: &ModelTable) -> DAffine3 {
     )
 }
 
-fn repeat(table: Option<&Spanned<RepeatTable>>, source: &Source) -> Result<Repeat, Diagnostic> {
+fn repeat(table: Option<&Spanned<Table<RepeatTable>>>, source: &Source) -> Result<Repeat, Diagnostic> {
     let Some(spanned) = table else { return Ok(Repeat::default()) };
     let (count, step) = (spanned.get_ref().count.values(), DVec3::from(spanned.get_ref().step));
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
@@ -223,7 +224,7 @@ mod tests {
 
     fn table(keys: &str) -> ModelTable {
         let source = Source::new(Path::new("a.toml"), format!("[[model]]\n{keys}"));
-        fault::parse(&source).unwrap().model.remove(0).into_inner()
+        fault::parse(&source).unwrap().model.remove(0).into_inner().0
     }
 
     #[test]
