@@ -51,7 +51,12 @@ fn reword(complaint: &str) -> (String, Option<String>) {
     }
     match complaint.split_once('\n') {
         Some((message, hint)) => (message.into(), Some(hint.into())),
-        None => (complaint.replace("missing field", "missing key").replace("expected i32", "expected a 32-bit integer"), None),
+        None => (
+            complaint
+                .replace("missing field", "missing key")
+                .replace("expected i32", "expected a 32-bit integer"),
+            None,
+        ),
     }
 }
 
