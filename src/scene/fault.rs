@@ -70,18 +70,21 @@ fn unknown_name(message: &str) -> Option<(&'static str, &str, Vec<&str>)> {
     Some((kind, name, quoted.collect()))
 }
 
-/// "did you mean …?" where a known name is near, and all the known names.
+/// The most known names that a hint lists.
+const MAX_LISTED: usize = 16;
+
+/// "did you mean …?" where a known name is near, and the known names.
 pub(super) fn suggest(name: &str, known: &[&str]) -> String {
+    let name = name.to_lowercase();
     let near = known
         .iter()
-        .map(|candidate| (strsim::osa_distance(&name.to_lowercase(), candidate), candidate))
+        .map(|candidate| (strsim::osa_distance(&name, &candidate.to_lowercase()), candidate))
         .filter(|(distance, candidate)| *distance <= candidate.chars().count().div_ceil(3))
         .min_by_key(|(distance, _)| *distance);
-    let list = known.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
-    match near {
-        Some((_, candidate)) => format!("did you mean `{candidate}`? known here: {list}"),
-        None => format!("known here: {list}"),
-    }
+    let question = near.map_or(String::new(), |(_, candidate)| format!("did you mean `{candidate}`? "));
+    let listed: Vec<_> = known.iter().take(MAX_LISTED).map(|name| format!("`{name}`")).collect();
+    let more = if known.len() > MAX_LISTED { ", …" } else { "" };
+    format!("{question}known here: {}{more}", listed.join(", "))
 }
 
 #[cfg(test)]
@@ -117,6 +120,15 @@ mod tests {
     fn a_far_fetched_key_gets_the_list_only() {
         let (_, _, _, hint) = fault("zzzzzzzz = 1");
         assert!(hint.starts_with("known here: `camera`, `render`"), "{hint}");
+    }
+
+    #[test]
+    fn long_lists_are_cut_and_case_does_not_matter() {
+        let names: Vec<_> = (0..40).map(|number| format!("Glass{number}")).collect();
+        let known: Vec<_> = names.iter().map(String::as_str).collect();
+        let hint = suggest("glass39x", &known);
+        assert!(hint.starts_with("did you mean `Glass39`? known here: `Glass0`, "), "{hint}");
+        assert!(hint.ends_with("`Glass15`, …"), "{hint}");
     }
 
     #[test]

@@ -19,6 +19,9 @@ use super::{Location, Mesh, SceneError, Triangle, polygon};
 /// The most corners of one face: cutting takes the square of their number.
 const MAX_CORNERS: usize = 16384;
 
+/// The most libraries of one mesh: a name is looked up in each.
+const MAX_LIBRARIES: usize = 64;
+
 /// Statements that say nothing about surfaces.
 const PASSED_OVER: &[&str] = &[
     "o",
@@ -124,6 +127,10 @@ impl Reader {
             "usemtl" => {
                 self.material = Some(reference(statement)?);
                 self.slot = None;
+            }
+            "mtllib" if self.obj.libraries.len() == MAX_LIBRARIES => {
+                let message = format!("too many material libraries; the most is {MAX_LIBRARIES}");
+                return Err(statement.fault(statement.keyword, message).into());
             }
             "mtllib" => self.obj.libraries.push(reference(statement)?),
             word if PASSED_OVER.contains(&word) => {}

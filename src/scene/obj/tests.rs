@@ -112,6 +112,12 @@ fn a_mesh_without_faces_is_an_error() {
 }
 
 #[test]
+fn too_many_libraries_are_refused() {
+    let (message, line, _) = fault(&"mtllib a.mtl\n".repeat(MAX_LIBRARIES + 1));
+    assert_eq!((message.as_str(), line), ("too many material libraries; the most is 64", 65));
+}
+
+#[test]
 fn a_face_of_too_many_corners_is_refused() {
     let corners = "1 2 3 4 ".repeat(MAX_CORNERS / 4 + 1);
     assert!(fault(&format!("f {corners}")).0.contains("the most is 16384"));
