@@ -39,7 +39,7 @@ impl Shell {
 
     /// Whether its faces look into the matter.
     pub(super) fn is_wrong(&self) -> bool {
-        let right = if self.depth % 2 == 0 { 1 } else { -1 };
+        let right = if self.depth.is_multiple_of(2) { 1 } else { -1 };
         self.sign == -right
     }
 
