@@ -1,0 +1,36 @@
+//! Makes every mesh, texture and environment under `scenes/`; the scene files there are written by hand.
+//!
+//!     cargo run --release --example make_scenes              # all of them
+//!     cargo run --release --example make_scenes -- ice/      # those whose path contains a word
+//!
+//! The same bytes come out of every run. A mesh that is not a closed, consistently oriented solid is not written.
+
+mod field;
+mod ice;
+mod mesh;
+mod noise;
+mod obj;
+mod panorama;
+mod product;
+mod shapes;
+mod studio;
+mod surface_nets;
+mod table;
+mod topology;
+
+use std::error::Error;
+use std::path::Path;
+
+use product::Product;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let wanted: Vec<String> = std::env::args().skip(1).collect();
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let products = [ice::products(), table::products(), studio::products()].concat();
+    for product in products {
+        if wanted.is_empty() || wanted.iter().any(|word| product.path.contains(word)) {
+            product.write(&folder)?;
+        }
+    }
+    Ok(())
+}
