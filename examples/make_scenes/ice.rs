@@ -193,7 +193,7 @@ impl Crack {
 /// Flat on top but for the meniscus, which climbs the wall by a little.
 fn liquid() -> Mesh {
     const RIM: usize = 26;
-    const RINGS: usize = 60;
+    const RINGS: usize = 44;
     let centre = DVec3::new(CAVITY.x, LEVEL, CAVITY.z);
     let reach = |p: DVec3| cavity(p) - OVERLAP;
     between_poles(RINGS, 144, |ring, turn| {
@@ -244,7 +244,7 @@ fn puddle() -> Mesh {
         if placed.iter().all(|(c, r)| c.distance(centre) > r + radius + 0.03) {
             placed.push((centre, radius));
             let seed = placed.len() as u32 + 70;
-            mesh.append(&drop(centre, 0.45 * radius, 8, 28, |turn| {
+            mesh.append(&drop(centre, 0.45 * radius, 6, 20, |turn| {
                 radius * (1.0 + 0.25 * noise(around(0.9, 0.0, turn), seed))
             }));
         }

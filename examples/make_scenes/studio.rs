@@ -9,11 +9,32 @@ use crate::product::{Make, Product};
 
 /// The environments made here.
 pub(crate) fn products() -> Vec<Product> {
-    vec![Product { path: "environments/studio.hdr", make: Make::Hdr(studio) }]
+    vec![
+        Product { path: "environments/studio.hdr", make: Make::Hdr(studio) },
+        Product { path: "environments/bright_field.hdr", make: Make::Hdr(bright_field) },
+    ]
 }
 
 fn studio() -> Rgb32FImage {
     render(1024, radiance)
+}
+
+/// How glass is photographed: one bright panel behind, black to both sides that draws the outlines dark.
+fn bright_field() -> Rgb32FImage {
+    let back = Panel {
+        centre: 3.0 * towards(0.0, 8.0),
+        half: DVec2::new(2.6, 2.4),
+        softness: 1.6,
+        radiance: DVec3::new(1.02, 1.0, 0.95),
+    };
+    let side = Panel {
+        centre: 3.0 * towards(-108.0, 26.0),
+        half: DVec2::new(0.7, 1.5),
+        softness: 0.08,
+        radiance: DVec3::new(4.6, 4.8, 5.2),
+    };
+    let dark = DVec3::new(0.022, 0.021, 0.024);
+    render(512, |d| dark + back.light(d) + side.light(d) * panes(&side, d))
 }
 
 fn radiance(d: DVec3) -> DVec3 {
