@@ -1,5 +1,10 @@
 #![doc = include_str!("ARCHITECTURE.md")]
 
+pub mod bvh;
+pub mod cpu;
 pub mod film;
+pub mod flatten;
+pub mod gpu;
+pub mod kernel;
 pub mod layout;
 pub mod scene;

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-use crate::layout::{Aov, Settings, Texel, View};
+use crate::layout::{Aov, Float, Settings, Texel, View};
 
 /// Rays traced, by kind. Every traced ray counts, escaping ones too.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -42,6 +42,8 @@ pub struct Frame {
     pub texels: Vec<Texel>,
     /// As many, if `Settings::aovs`.
     pub aovs: Option<Vec<Aov>>,
+    /// The arithmetic that was used: `Fast` where strict was asked for and the device cannot give it.
+    pub float: Float,
     /// Rays traced.
     pub rays: RayCounts,
     /// Where the time went.

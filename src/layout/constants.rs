@@ -1,16 +1,139 @@
 //! Numbers that both devices share. Injected into the shaders under the same names.
 
-/// D*: the tree of this depth is the truth of every error bound, and the deepest that may be asked for.
-pub const MAX_DEPTH: u32 = 64;
+/// A shared number, as the shaders need it declared.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Shared {
+    /// `const NAME: u32`.
+    U32(u32),
+    /// `const NAME: f32`.
+    F32(f32),
+    /// `const NAME: real`: f32 or f64 by the precision of the variant.
+    Real(f64),
+}
 
-/// Transmissive bodies that the media mask holds.
-pub const MAX_MEDIA: u32 = 32;
+impl From<u32> for Shared {
+    fn from(value: u32) -> Self {
+        Self::U32(value)
+    }
+}
 
-/// Nodes on a path from the root of the BVH; the traversal stack holds one fewer.
-pub const MAX_BVH_DEPTH: u32 = 64;
+impl From<f32> for Shared {
+    fn from(value: f32) -> Self {
+        Self::F32(value)
+    }
+}
 
-/// Side of the square block of pixels that one workgroup traces.
-pub const BLOCK: u32 = 8;
+impl From<f64> for Shared {
+    fn from(value: f64) -> Self {
+        Self::Real(value)
+    }
+}
 
-/// An interface without effect lets a ray pass at no cost; one that met this many is stuck and is cut.
-pub const MAX_PASSES: u32 = 4096;
+macro_rules! shared {
+    ($($(#[$doc:meta])* $name:ident: $kind:ty = $value:expr;)*) => {
+        $($(#[$doc])* pub const $name: $kind = $value;)*
+
+        /// Every shared number by name.
+        pub const SHARED: &[(&str, fn() -> Shared)] = &[$((stringify!($name), || Shared::from($name))),*];
+    };
+}
+
+shared! {
+    /// D*: the tree of this depth is the truth of every error bound, and the deepest that may be asked for.
+    MAX_DEPTH: u32 = 64;
+    /// Transmissive bodies that the media mask holds.
+    MAX_MEDIA: u32 = 32;
+    /// Nodes on a path from the root of the BVH; the traversal stack holds one fewer.
+    MAX_BVH_DEPTH: u32 = 64;
+    /// Side of the square block of pixels that one workgroup traces.
+    BLOCK: u32 = 8;
+    /// Interfaces without effect that a ray, or interfaces of any kind that a shadow ray, may pass;
+    /// one that met this many is stuck and is cut.
+    MAX_PASSES: u32 = 4096;
+    /// Rows of four in [`View::media`](super::View::media).
+    MEDIA_ROWS: u32 = MAX_MEDIA.div_ceil(4);
+    /// Rows of four in [`View::radiance_bound`](super::View::radiance_bound): 0 to `MAX_DEPTH` + 1 levels.
+    BOUND_ROWS: u32 = (MAX_DEPTH + 2).div_ceil(4);
+    /// Index of primary rays in counts by kind.
+    RAY_PRIMARY: u32 = 0;
+    /// Index of reflected rays in counts by kind.
+    RAY_REFLECTION: u32 = 1;
+    /// Index of refracted rays in counts by kind.
+    RAY_REFRACTION: u32 = 2;
+    /// Index of shadow rays in counts by kind.
+    RAY_SHADOW: u32 = 3;
+    /// Marks an absent index.
+    NONE: u32 = u32::MAX;
+    /// Flag in [`Attribute::other`](super::Attribute::other): the second body's outside is on the other side.
+    OPPOSITE: u32 = 1 << 31;
+
+    /// 2^120: beyond every scene, a ray without end. Finite, since WGSL promises no infinities.
+    FAR: f64 = 1.329_227_995_784_916e36;
+    /// 2^-40: direction components below this count as this much in the slab test, so that every reciprocal and
+    /// every product with it is finite. That much of the distance is far less than [`SLAB_PADDING`] of it.
+    LEAST_DIRECTION: f64 = 9.094_947_017_729_282e-13;
+    /// Slabs are widened by this much (2^-19) of the distance to the farthest corner of the scene's box: more
+    /// than the rounding of the slab and triangle tests, so that no box misses what its triangle hits.
+    SLAB_PADDING: f64 = 1.907_348_632_812_5e-6;
+    /// Rays leave a surface by this many unit roundoffs of its corners' weighted coordinates, along the normal:
+    /// 7 bound the rounding of the hit point (Pharr, Jakob, Humphreys, 4th ed., section 6.8.5), the rest that of
+    /// the leaving ray's plane test.
+    SPAWN_ROUNDOFFS: f64 = 16.0;
+
+    /// Weyl steps of the sample pattern, as fractions of 2^32: 1/φ₂ and 1/φ₂² of the plastic number φ₂
+    /// (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences", R2).
+    WEYL_X: u32 = 3_242_174_889;
+    /// See [`WEYL_X`].
+    WEYL_Y: u32 = 2_447_445_414;
+    /// 2^-24: sample offsets are 24-bit fractions, exact in f32.
+    FRACTION: f64 = 5.960_464_477_539_063e-8;
+    /// Odd multiplier of the path hashes (Steele and Vigna 2021, "Computationally easy, spectrally good
+    /// multipliers", 32 bits).
+    HASH_MULTIPLIER: u32 = 0x915f_77f5;
+
+    /// log2(e).
+    LOG2_E: f32 = std::f32::consts::LOG2_E;
+    /// Upper bits of ln 2: 12 bits, so that its product with a whole number below 2^12 is exact.
+    LN2_HI: f32 = 0.69311523;
+    /// ln 2 − [`LN2_HI`].
+    LN2_LO: f32 = 3.1946183e-05;
+    /// ln 2.
+    LN2: f32 = std::f32::consts::LN_2;
+    /// Upper 12 bits of 2/ln 2.
+    TWO_OVER_LN2_HI: f32 = 2.8847656;
+    /// 2/ln 2 − [`TWO_OVER_LN2_HI`].
+    TWO_OVER_LN2_LO: f32 = 0.0006244568;
+    /// Upper bits of log2(1.25): 12 after the point.
+    LOG2_5_4_HI: f32 = 0.32177734;
+    /// log2(1.25) − [`LOG2_5_4_HI`].
+    LOG2_5_4_LO: f32 = 0.00015075113;
+    /// Upper bits of log2(1.5): 12 after the point.
+    LOG2_3_2_HI: f32 = 0.58496094;
+    /// log2(1.5) − [`LOG2_3_2_HI`].
+    LOG2_3_2_LO: f32 = 1.5632212e-06;
+    /// Upper bits of log2(1.75): 12 after the point.
+    LOG2_7_4_HI: f32 = 0.8071289;
+    /// log2(1.75) − [`LOG2_7_4_HI`].
+    LOG2_7_4_LO: f32 = 0.0002260158;
+    /// π/4 rounded to f32.
+    PI_4_HI: f32 = std::f32::consts::FRAC_PI_4;
+    /// π/4 − [`PI_4_HI`].
+    PI_4_LO: f32 = -2.1855694e-08;
+    /// tan(π/8): beyond it the arctangent is reduced by π/4.
+    TAN_PI_8: f32 = 0.41421357;
+    /// π.
+    PI: f64 = std::f64::consts::PI;
+    /// ln 2 to 53 bits, for the series in f64.
+    LN2_DOUBLE: f64 = std::f64::consts::LN_2;
+    /// 1/π.
+    INV_PI: f64 = std::f64::consts::FRAC_1_PI;
+    /// 2^-126: the least normal f32; the film keeps nothing below.
+    LEAST_NORMAL: f32 = 1.1754944e-38;
+    /// exp(−x) of an f32 is below 2^-126 from here on, and returned as 0.
+    EXP_LIMIT: f32 = 87.0;
+}
+
+/// 2^-24 or 2^-53: the unit roundoff, injected as `ROUNDOFF`.
+pub const ROUNDOFF_F32: f64 = 5.960_464_477_539_063e-8;
+/// See [`ROUNDOFF_F32`].
+pub const ROUNDOFF_F64: f64 = 1.110_223_024_625_156_5e-16;

@@ -4,12 +4,16 @@
 //! and offsets. Every constant in [`constants`] is injected into the shaders; a test forbids repeating one.
 
 pub mod constants;
+mod effects;
 mod flat_scene;
 mod records;
 mod settings;
+mod tile;
 mod view;
 
+pub use effects::{Effect, Effects, Finding};
 pub use flat_scene::{Body, FlatScene, FlatTexture};
 pub use records::{Aov, Attribute, Corner, Light, Material, Node, Texel, Triangle};
 pub use settings::{Backend, Float, Intersector, Precision, Settings};
+pub use tile::{FilmHead, Tile};
 pub use view::View;

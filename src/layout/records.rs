@@ -3,10 +3,13 @@
 
 use bytemuck::{Pod, Zeroable};
 
+use super::constants;
+
 /// An inner node: the boxes of its two children (Aila and Laine 2009). A leaf is named by its parent.
 ///
 /// `a_first` is a node index if `a_count` is 0, else the first of `a_count` triangles.
-/// An absent child has `lo > hi` on every axis, finite.
+/// Both children are always there: a scene of one leaf names it twice, and an empty scene holds one
+/// degenerate triangle, which nothing hits.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct Node {
@@ -38,12 +41,12 @@ pub struct Triangle {
     pub id: u32,
     /// Second corner.
     pub v1: [f32; 3],
-    /// 1 where light passes (the material transmits), else 0.
-    pub transmissive: u32,
+    /// Unused, 0.
+    pub reserved1: u32,
     /// Third corner.
     pub v2: [f32; 3],
     /// Unused, 0.
-    pub reserved: u32,
+    pub reserved2: u32,
 }
 
 /// What a hit needs to know about a triangle, in the order of primitive ids.
@@ -67,9 +70,9 @@ pub struct Attribute {
 
 impl Attribute {
     /// No second body, no corners.
-    pub const NONE: u32 = u32::MAX;
+    pub const NONE: u32 = constants::NONE;
     /// Flag in `other`: the second body's matter lies on the front side of the face.
-    pub const OPPOSITE: u32 = 1 << 31;
+    pub const OPPOSITE: u32 = constants::OPPOSITE;
 }
 
 /// Shading data of one corner.

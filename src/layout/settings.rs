@@ -10,7 +10,7 @@ pub enum Backend {
 }
 
 /// The arithmetic of a trace.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Precision {
     /// 32 bits: fast, the same bits on every strict device.
     #[default]
@@ -20,7 +20,7 @@ pub enum Precision {
 }
 
 /// What a shader compiler may do to float arithmetic.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Float {
     /// Every operation as written: the CPU's bits.
     #[default]
@@ -30,7 +30,7 @@ pub enum Float {
 }
 
 /// The ray–triangle test.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Intersector {
     /// Woop, Benthin, Wald 2013: no ray passes between two triangles of an edge.
     #[default]

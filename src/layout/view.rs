@@ -2,12 +2,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use super::constants::{MAX_DEPTH, MAX_MEDIA};
-
-/// Words of [`View::radiance_bound`], rounded up to whole vec4s.
-pub const BOUND_ROWS: usize = (MAX_DEPTH as usize + 2).div_ceil(4);
-/// Rows of [`View::media`].
-pub const MEDIA_ROWS: usize = (MAX_MEDIA as usize).div_ceil(4);
+use super::constants::{BOUND_ROWS, MEDIA_ROWS};
 
 /// Camera, picture and scene constants. Uniform buffer; all vec3s are followed by a scalar.
 #[repr(C)]
@@ -60,7 +55,7 @@ pub struct View {
     /// Left and top of the crop in pixels, then its width and height.
     pub crop: [u32; 4],
     /// Material of each transmissive body: the medium of its bit in the mask.
-    pub media: [[u32; 4]; MEDIA_ROWS],
+    pub media: [[u32; 4]; MEDIA_ROWS as usize],
     /// `FlatScene::radiance_bound` in rows of four.
-    pub radiance_bound: [[f32; 4]; BOUND_ROWS],
+    pub radiance_bound: [[f32; 4]; BOUND_ROWS as usize],
 }

@@ -9,9 +9,23 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec2, DVec3};
 
+mod color;
 mod diagnostic;
+mod document;
+mod error;
+mod fault;
+mod illumination;
+mod mtl;
+mod normals;
+mod number;
+mod obj;
+mod polygon;
+mod source;
+mod statement;
+mod triple;
 
 pub use diagnostic::{Diagnostic, Location, Severity};
+pub use error::SceneError;
 
 /// A validated scene: every number finite and in range, every file read and decoded.
 #[derive(Debug, Clone)]

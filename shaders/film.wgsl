@@ -1,0 +1,43 @@
+// Stop 7 of 7: film. Twin of src/kernel/film.rs.
+
+import package::real::{real, vec3r};
+import package::whitted::Sample;
+import package::records::Texel;
+import package::bindings::view;
+import package::constants::LEAST_NORMAL;
+
+// Add sample `index` to a pixel's running sums; the last one divides them by the number of samples.
+fn add(before: Texel, sample: Sample, index: u32) -> Texel {
+    var texel = before;
+    texel.radiance = texel.radiance + flush3(sample.radiance);
+    texel.dropped = texel.dropped + flush(sample.dropped);
+    texel.bound = texel.bound + flush(sample.bound);
+    texel.rays = texel.rays + sample.rays;
+    if index == 0u {
+        texel.primitive_hash = sample.primitive_hash;
+        texel.body_hash = sample.body_hash;
+    }
+    if index + 1u == view.samples {
+        let n = f32(i32(view.samples));
+        texel.radiance.x = flush(real(texel.radiance.x / n));
+        texel.radiance.y = flush(real(texel.radiance.y / n));
+        texel.radiance.z = flush(real(texel.radiance.z / n));
+        texel.dropped = flush(real(texel.dropped / n));
+        texel.bound = flush(real(texel.bound / n));
+    }
+    return texel;
+}
+
+// To f32, with subnormals as 0: devices differ on them.
+fn flush(x: real) -> f32 {
+    let f = f32(x);
+    if abs(f) < LEAST_NORMAL {
+        return 0.0;
+    }
+    return f;
+}
+
+// A vector through `flush`.
+fn flush3(v: vec3r) -> vec3f {
+    return vec3f(flush(v.x), flush(v.y), flush(v.z));
+}

@@ -1,0 +1,108 @@
+// Stop 5 of 7: light. Twin of src/kernel/light.rs.
+
+import package::real::{real, vec3r, least};
+import package::bvh::{intersect, make_ray, occluded};
+import package::material::shadow_transmission;
+import package::math::{dot3, length3, max3, power};
+import package::media::{attenuation, cross_face, current_medium};
+import package::surface::{Surface, resolve, spawn_behind};
+import package::texture::texture_color;
+import package::bindings::{lights, materials, view};
+import package::constants::{MAX_PASSES, NONE};
+
+// What the point lights and the ambient light give a surface.
+struct Direct {
+    radiance: vec3r,
+    seen: u32,
+    shadow_rays: u32,
+}
+
+// The local terms ka·Ia + Σj Tj·Ij·[kd·(n·lj) + ks·(s·rj)^β], lights in order.
+fn direct(surface: Surface, direction: vec3r, media: u32) -> Direct {
+    let m = materials[surface.material];
+    var tint = vec3r(1.0);
+    if m.texture != NONE {
+        tint = texture_color(surface.material, surface.uv);
+    }
+    let ambient = vec3r(m.ambient) * tint;
+    let diffuse = vec3r(m.diffuse) * tint;
+    let specular = vec3r(m.specular);
+    var result = Direct(ambient * vec3r(view.ambient), 0u, 0u);
+    if max3(diffuse) <= 0.0 && max3(specular) <= 0.0 {
+        return result;
+    }
+    let origin = surface.shadow_point + surface.face_normal * surface.offset;
+    for (var j = 0u; j < view.lights; j++) {
+        let position = vec3r(lights[j].position);
+        let to_light = position - origin;
+        let distance = length3(to_light);
+        let l = vec3r(to_light.x / distance, to_light.y / distance, to_light.z / distance);
+        // A light behind the shading surface gives nothing, and one at the very point has no direction.
+        let cosine = dot3(surface.normal, l);
+        let lit = cosine > 0.0;
+        if !lit {
+            continue;
+        }
+        let lobe = phong(surface.normal, l, direction, cosine, real(m.shininess), specular);
+        result.shadow_rays++;
+        let t = transmittance(origin, l, distance, position, media);
+        if max3(t) <= 0.0 {
+            continue;
+        }
+        result.seen ^= 1u << (j & 31u);
+        var intensity = vec3r(lights[j].intensity);
+        if lights[j].inverse_square != 0u {
+            let d2 = distance * distance;
+            intensity = vec3r(intensity.x / d2, intensity.y / d2, intensity.z / d2);
+        }
+        result.radiance = result.radiance + t * intensity * (diffuse * cosine + lobe);
+    }
+    return result;
+}
+
+// ks·(s·r)^β with r = 2(n·l)n − l and s = −direction (Phong 1975).
+fn phong(n: vec3r, l: vec3r, direction: vec3r, cosine: real, shininess: real, specular: vec3r) -> vec3r {
+    let r = n * (cosine + cosine) - l;
+    let s = 0.0 - dot3(direction, r);
+    if s <= 0.0 {
+        return vec3r(0.0);
+    }
+    return specular * power(least(s, 1.0), shininess);
+}
+
+// Tj: what comes straight, unrefracted, from a light to a point in the given media, per channel.
+fn transmittance(origin: vec3r, l: vec3r, distance: real, light: vec3r, media: u32) -> vec3r {
+    // Where every body is opaque one blocker decides, whichever it is.
+    if view.transmissive_bodies == 0u {
+        return select(vec3r(1.0), vec3r(0.0), occluded(make_ray(origin, l), distance));
+    }
+    var result = vec3r(1.0);
+    var mask = media;
+    var start = origin;
+    var left = distance;
+    for (var i = 0u; i < MAX_PASSES; i++) {
+        let ray = make_ray(start, l);
+        let hit = intersect(ray, left);
+        let medium = current_medium(mask);
+        if hit.id == NONE {
+            return result * attenuation(medium, left);
+        }
+        let surface = resolve(ray, hit);
+        if max3(vec3r(materials[surface.material].transmission)) <= 0.0 {
+            return vec3r(0.0);
+        }
+        result = result * attenuation(medium, hit.t);
+        let next = cross_face(mask, hit.id, hit.front);
+        let behind = current_medium(next);
+        if behind != medium {
+            result = result * shadow_transmission(surface, l, medium, behind);
+        }
+        if max3(result) <= 0.0 {
+            return vec3r(0.0);
+        }
+        mask = next;
+        start = spawn_behind(surface);
+        left = length3(light - start);
+    }
+    return vec3r(0.0);
+}

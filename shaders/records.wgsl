@@ -1,0 +1,87 @@
+// The records in the buffers: see src/layout/records.rs and src/layout/view.rs for what they mean.
+
+import package::constants::{MEDIA_ROWS, BOUND_ROWS};
+
+struct Node {
+    a_lo: vec3f, a_first: u32,
+    a_hi: vec3f, a_count: u32,
+    b_lo: vec3f, b_first: u32,
+    b_hi: vec3f, b_count: u32,
+}
+
+struct Triangle {
+    v0: vec3f, id: u32,
+    v1: vec3f, reserved1: u32,
+    v2: vec3f, reserved2: u32,
+}
+
+struct Attribute {
+    normal: vec3f, material: u32,
+    body: u32, other: u32, corners: u32, reserved: u32,
+}
+
+struct Corner {
+    normal: vec3f, u: f32,
+    reserved: vec3f, v: f32,
+}
+
+struct Material {
+    ambient: vec3f, ior: f32,
+    diffuse: vec3f, shininess: f32,
+    specular: vec3f, fresnel: u32,
+    reflection: vec3f, texture: u32,
+    transmission: vec3f, texture_width: u32,
+    absorption: vec3f, texture_height: u32,
+}
+
+struct Light {
+    position: vec3f, inverse_square: u32,
+    intensity: vec3f, reserved: u32,
+}
+
+struct Texel {
+    radiance: vec3f, dropped: f32,
+    bound: f32, rays: u32, primitive_hash: u32, body_hash: u32,
+}
+
+struct Aov {
+    normal: vec3f, depth: f32,
+    body: u32, medium: u32, reserved: vec2u,
+}
+
+struct View {
+    eye: vec3f, width: u32,
+    forward: vec3f, height: u32,
+    right: vec3f, start_media: u32,
+    up: vec3f, depth: u32,
+    ambient: vec3f, cutoff: f32,
+    horizon: vec3f, samples: u32,
+    zenith: vec3f, lights: u32,
+    scene_lo: vec3f, transmissive_bodies: u32,
+    scene_hi: vec3f, environment: u32,
+    environment_width: u32, environment_height: u32,
+    environment_turn: f32, environment_intensity: f32,
+    crop: vec4u,
+    media: array<vec4u, MEDIA_ROWS>,
+    radiance_bound: array<vec4f, BOUND_ROWS>,
+}
+
+// Which blocks and samples a dispatch traces.
+struct Tile {
+    first_block: u32, block_count: u32, first_sample: u32, sample_count: u32,
+}
+
+// A pixel as the film keeps it.
+struct FilmTexel {
+    texel: Texel,
+    @if(aovs) aov: Aov,
+}
+
+// The film, headed by what a submission reports.
+struct Film {
+    // Invocations that came to their end.
+    done: atomic<u32>,
+    primary: atomic<u32>, reflection: atomic<u32>, refraction: atomic<u32>, shadow: atomic<u32>,
+    reserved0: u32, reserved1: u32, reserved2: u32,
+    texels: array<FilmTexel>,
+}

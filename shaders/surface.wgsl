@@ -1,0 +1,95 @@
+// Stop 4 of 7: surface. Twin of src/kernel/surface.rs.
+
+import package::real::{real, vec3r};
+import package::math::{dot3, unit3};
+import package::bvh::{Hit, Ray};
+import package::bindings::{attributes, corners, triangles};
+import package::constants::{NONE, ROUNDOFF, SPAWN_ROUNDOFFS};
+
+// A point on a face, as the ray that found it sees it.
+struct Surface {
+    point: vec3r,
+    offset: real,
+    face_normal: vec3r,
+    normal: vec3r,
+    shadow_point: vec3r,
+    uv: array<real, 2>,
+    material: u32,
+    body: u32,
+    id: u32,
+    front: bool,
+}
+
+// Everything that shading needs at a hit.
+fn resolve(ray: Ray, hit: Hit) -> Surface {
+    let v0 = vec3r(triangles[hit.index].v0);
+    let v1 = vec3r(triangles[hit.index].v1);
+    let v2 = vec3r(triangles[hit.index].v2);
+    let face = attributes[hit.id];
+    let b0 = 1.0 - hit.b1 - hit.b2;
+    // The point, and a bound on its distance from the face.
+    let p0 = v0 * b0;
+    let p1 = v1 * hit.b1;
+    let p2 = v2 * hit.b2;
+    let point = p0 + p1 + p2;
+    let size = abs(p0) + abs(p1) + abs(p2);
+    let outward = vec3r(face.normal);
+    let face_normal = select(-outward, outward, hit.front);
+    let offset = dot3(abs(face_normal), size) * (SPAWN_ROUNDOFFS * ROUNDOFF);
+    var surface = Surface(
+        point, offset, face_normal, face_normal, point, array<real, 2>(0.0, 0.0), face.material, face.body, hit.id,
+        hit.front,
+    );
+    // Smooth normals and texture coordinates.
+    if face.corners != NONE {
+        let c0 = corners[face.corners];
+        let c1 = corners[face.corners + 1u];
+        let c2 = corners[face.corners + 2u];
+        surface.uv = array<real, 2>(
+            real(c0.u) * b0 + real(c1.u) * hit.b1 + real(c2.u) * hit.b2,
+            real(c0.v) * b0 + real(c1.v) * hit.b1 + real(c2.v) * hit.b2,
+        );
+        let n0 = corner_normal(c0.normal, hit.front);
+        let n1 = corner_normal(c1.normal, hit.front);
+        let n2 = corner_normal(c2.normal, hit.front);
+        let smoothed = unit3(n0 * b0 + n1 * hit.b1 + n2 * hit.b2);
+        surface.normal = turn_towards(smoothed, -ray.direction);
+        surface.shadow_point =
+            point + lift(point, v0, n0) * b0 + lift(point, v1, n1) * hit.b1 + lift(point, v2, n2) * hit.b2;
+    }
+    return surface;
+}
+
+// A corner's shading normal on the ray's side.
+fn corner_normal(normal: vec3f, front: bool) -> vec3r {
+    let n = vec3r(normal);
+    return select(-n, n, front);
+}
+
+// v, mirrored to the side of `axis` if it lies on the other.
+fn turn_towards(v: vec3r, axis: vec3r) -> vec3r {
+    let along = dot3(v, axis);
+    if along < 0.0 {
+        return v - axis * (along + along);
+    }
+    return v;
+}
+
+// From the point to its projection on a corner's tangent plane, where it lies below.
+fn lift(point: vec3r, corner: vec3r, normal: vec3r) -> vec3r {
+    let height = dot3(point - corner, normal);
+    if height < 0.0 {
+        return normal * (-height);
+    }
+    return vec3r(0.0);
+}
+
+// Where a ray starts that leaves the face on the side that it came from.
+fn spawn_before(surface: Surface) -> vec3r {
+    return surface.point + surface.face_normal * surface.offset;
+}
+
+// Where a ray starts that goes on behind the face.
+fn spawn_behind(surface: Surface) -> vec3r {
+    return surface.point - surface.face_normal * surface.offset;
+}

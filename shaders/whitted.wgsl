@@ -1,0 +1,230 @@
+// The itinerary: the whole ray tree of a sample, one loop with an explicit stack. Twin of src/kernel/whitted.rs.
+
+import package::real::{real, vec3r};
+import package::background::background;
+import package::bvh::{far, intersect, make_ray};
+import package::camera::primary_ray;
+import package::film::{add, flush, flush3};
+import package::hash::{mix_hash, sample_offset};
+import package::light::direct;
+import package::material::scatter;
+import package::math::max3;
+import package::media::{attenuation, cross_face, current_medium};
+import package::records::{Aov, FilmTexel};
+import package::surface::{Surface, resolve, spawn_before, spawn_behind};
+import package::bindings::{film, materials, view};
+import package::constants::{
+    MAX_DEPTH, MAX_PASSES, NONE, RAY_PRIMARY, RAY_REFLECTION, RAY_REFRACTION, RAY_SHADOW, STACK_SIZE,
+};
+
+// A ray of the tree that is still to be traced.
+struct Branch {
+    origin: vec3r,
+    media: u32,
+    direction: vec3r,
+    depth: u32,
+    weight: vec3r,
+    kind: u32,
+}
+
+// How a branch ends: where it meets a surface that matters, or `found` false where it meets none.
+struct Landing {
+    found: bool,
+    stuck: bool,
+    surface: Surface,
+    distance: real,
+    media: u32,
+    media_behind: u32,
+}
+
+// What one sample gives the film.
+struct Sample {
+    radiance: vec3r,
+    dropped: real,
+    bound: real,
+    rays: u32,
+    rays_by_kind: vec4u,
+    primitive_hash: u32,
+    body_hash: u32,
+    @if(aovs) aov: Aov,
+}
+
+// The branch to go on with, if `found`.
+struct Next {
+    found: bool,
+    branch: Branch,
+}
+
+// One entry a branching level: refraction goes on, reflection waits. Declared once, cleared once.
+var<private> stack: array<Branch, STACK_SIZE>;
+var<private> stack_size: u32;
+var<private> sample: Sample;
+
+// Trace samples [first, end) of a pixel of the whole picture onto texel `slot` of the film.
+fn trace_pixel(pixel: vec2u, first: u32, end: u32, slot: u32) -> vec4u {
+    var rays = vec4u(0u);
+    var texel = film.texels[slot].texel;
+    for (var i = first; i < end; i++) {
+        let offset = sample_offset(i);
+        let x = real(i32(pixel.x)) + offset[0];
+        let y = real(i32(pixel.y)) + offset[1];
+        trace_tree(primary_ray(x, y));
+        texel = add(texel, sample, i);
+        rays += sample.rays_by_kind;
+        @if(aovs) {
+            if i == 0u {
+                film.texels[slot].aov = sample.aov;
+            }
+        }
+    }
+    film.texels[slot].texel = texel;
+    return rays;
+}
+
+// Trace the tree of one primary ray into `sample`.
+fn trace_tree(direction: vec3r) {
+    sample.radiance = vec3r(0.0);
+    sample.dropped = 0.0;
+    sample.bound = 0.0;
+    sample.rays = 0u;
+    sample.rays_by_kind = vec4u(0u);
+    sample.primitive_hash = 0u;
+    sample.body_hash = 0u;
+    @if(aovs) { sample.aov = Aov(vec3f(0.0), 0.0, NONE, NONE, vec2u(0u)); }
+    var current = Branch(vec3r(view.eye), view.start_media, direction, 0u, vec3r(1.0), RAY_PRIMARY);
+    stack_size = 0u;
+    loop {
+        count_ray(current.kind);
+        let landing = find_surface(current);
+        var next: Next;
+        if landing.found {
+            next = shade(current, landing);
+        } else {
+            escape(current, landing);
+        }
+        if next.found {
+            current = next.branch;
+        } else if stack_size > 0u {
+            stack_size--;
+            current = stack[stack_size];
+        } else {
+            break;
+        }
+    }
+}
+
+// Count a traced ray.
+fn count_ray(kind: u32) {
+    sample.rays++;
+    sample.rays_by_kind[kind]++;
+}
+
+// Follow a branch through interfaces that change no medium to the first surface that matters.
+fn find_surface(branch: Branch) -> Landing {
+    var landing: Landing;
+    var origin = branch.origin;
+    landing.media = branch.media;
+    landing.distance = 0.0;
+    for (var i = 0u; i < MAX_PASSES; i++) {
+        let ray = make_ray(origin, branch.direction);
+        let hit = intersect(ray, far());
+        if hit.id == NONE {
+            return landing;
+        }
+        landing.distance = landing.distance + hit.t;
+        landing.surface = resolve(ray, hit);
+        landing.media_behind = cross_face(landing.media, hit.id, hit.front);
+        let opaque = max3(vec3r(materials[landing.surface.material].transmission)) <= 0.0;
+        if opaque || current_medium(landing.media_behind) != current_medium(landing.media) {
+            landing.found = true;
+            return landing;
+        }
+        landing.media = landing.media_behind;
+        origin = spawn_behind(landing.surface);
+    }
+    landing.stuck = true;
+    return landing;
+}
+
+// A branch that meets nothing sees the background; a stuck one too, and counts as cut.
+fn escape(branch: Branch, landing: Landing) {
+    if landing.stuck {
+        cut(branch);
+    } else {
+        sample.radiance = sample.radiance + branch.weight * background(branch.direction);
+        sample.primitive_hash = mix_hash(sample.primitive_hash, branch.kind);
+        sample.body_hash = mix_hash(sample.body_hash, branch.kind);
+    }
+}
+
+// Add a surface's local light, and make its children: the one to go on with is returned, the other waits on the stack.
+fn shade(branch: Branch, landing: Landing) -> Next {
+    let surface = landing.surface;
+    let before = current_medium(landing.media);
+    let behind = current_medium(landing.media_behind);
+    let weight = branch.weight * attenuation(before, landing.distance);
+    // Local light.
+    let local = direct(surface, branch.direction, landing.media);
+    sample.radiance = sample.radiance + weight * local.radiance;
+    sample.rays += local.shadow_rays;
+    sample.rays_by_kind[RAY_SHADOW] += local.shadow_rays;
+    note_path(branch.kind, surface, local.seen);
+    @if(aovs) {
+        if branch.depth == 0u {
+            sample.aov = Aov(flush3(surface.normal), flush(landing.distance), surface.body, behind, vec2u(0u));
+        }
+    }
+    // Children.
+    let scattered = scatter(surface, branch.direction, before, behind);
+    let depth = branch.depth + 1u;
+    let reflection = Branch(
+        spawn_before(surface), landing.media, scattered.reflected, depth, weight * scattered.reflection, RAY_REFLECTION);
+    let refraction = Branch(
+        spawn_behind(surface), landing.media_behind, scattered.refracted, depth, weight * scattered.transmission,
+        RAY_REFRACTION);
+    var reflects = scattered.reflects;
+    if reflects {
+        reflects = keep_or_cut(reflection);
+    }
+    var refracts = scattered.transmits;
+    if refracts {
+        refracts = keep_or_cut(refraction);
+    }
+    if refracts && reflects {
+        stack[stack_size] = reflection;
+        stack_size++;
+    }
+    var next = Next(refracts || reflects, refraction);
+    if !refracts {
+        next.branch = reflection;
+    }
+    return next;
+}
+
+// Enter a surface into both path hashes.
+fn note_path(kind: u32, surface: Surface, seen: u32) {
+    let side = select(8u, 4u, surface.front);
+    sample.primitive_hash = mix_hash(mix_hash(mix_hash(sample.primitive_hash, surface.id), kind), seen);
+    sample.body_hash = mix_hash(mix_hash(mix_hash(sample.body_hash, surface.body), kind + side), seen);
+}
+
+// Whether a child is to be traced; if not, it is cut.
+fn keep_or_cut(child: Branch) -> bool {
+    if child.depth <= view.depth && max3(child.weight) >= real(view.cutoff) {
+        return true;
+    }
+    cut(child);
+    return false;
+}
+
+// A cut ray takes the background's radiance in its direction, and is accounted for.
+fn cut(branch: Branch) {
+    let weight = max3(branch.weight);
+    sample.radiance = sample.radiance + branch.weight * background(branch.direction);
+    sample.dropped = sample.dropped + weight;
+    // The true tree goes down to MAX_DEPTH, that is MAX_DEPTH + 1 - depth levels from here.
+    if branch.depth <= MAX_DEPTH {
+        let levels = MAX_DEPTH + 1u - branch.depth;
+        sample.bound = sample.bound + weight * real(view.radiance_bound[levels >> 2][levels & 3]);
+    }
+}

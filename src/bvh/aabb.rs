@@ -1,0 +1,39 @@
+//! Axis-aligned boxes.
+
+use crate::layout::Triangle;
+
+/// An axis-aligned box; empty where `lo > hi`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Aabb {
+    pub(super) lo: [f32; 3],
+    pub(super) hi: [f32; 3],
+}
+
+impl Aabb {
+    /// Holds nothing; the neutral element of [`Aabb::union`].
+    pub(super) const EMPTY: Self = Self { lo: [f32::MAX; 3], hi: [f32::MIN; 3] };
+
+    /// The exact box of a triangle.
+    pub(super) fn of(triangle: &Triangle) -> Self {
+        [triangle.v0, triangle.v1, triangle.v2].into_iter().fold(Self::EMPTY, Self::with)
+    }
+
+    /// The box of `self` and a point.
+    pub(super) fn with(self, point: [f32; 3]) -> Self {
+        Self {
+            lo: std::array::from_fn(|axis| self.lo[axis].min(point[axis])),
+            hi: std::array::from_fn(|axis| self.hi[axis].max(point[axis])),
+        }
+    }
+
+    /// The box of both.
+    pub(super) fn union(self, other: &Self) -> Self {
+        self.with(other.lo).with(other.hi)
+    }
+
+    /// Half the surface area, in f64: it overflows f32 long before coordinates do. 0 where empty.
+    pub(super) fn half_area(&self) -> f64 {
+        let [x, y, z] = std::array::from_fn(|axis| f64::from(self.hi[axis]) - f64::from(self.lo[axis]));
+        if x < 0.0 { 0.0 } else { x * y + y * z + z * x }
+    }
+}

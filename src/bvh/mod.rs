@@ -1,0 +1,25 @@
+//! The bounding volume hierarchy: build, encode, check, statistics.
+//!
+//! A builder decides only *which* triangles go together, as a [`tree::Tree`]; [`encode`] writes the nodes
+//! and takes their boxes from the triangles themselves, so that every box is the exact least and greatest
+//! coordinate of what lies below it, whichever builder was at work. The traversal widens the boxes; the
+//! data hold no padding.
+
+mod aabb;
+mod agglomerative;
+mod binned;
+mod build;
+mod check;
+mod encode;
+mod stats;
+mod tree;
+
+pub use build::{Bvh, BvhError, Preset, build};
+pub use check::{CheckError, check};
+pub use stats::Statistics;
+
+/// Triangles in a leaf, at most.
+pub const MAX_LEAF: u32 = 4;
+
+/// What visiting a node costs, in ray–triangle tests: it tests two boxes, which measures about as much.
+pub const NODE_COST: f64 = 1.0;

@@ -1,0 +1,109 @@
+//! Every way a command ends, and the exit code of each.
+
+use std::io;
+
+use thiserror::Error;
+
+use crate::cpu::CpuError;
+use crate::film::{DifferenceError, EncodeError, LoadError, OutputError};
+use crate::gpu::GpuError;
+use crate::scene::{Diagnostic, SceneError};
+
+/// How a command that met no error ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Outcome {
+    /// Everything was done.
+    Done,
+    /// A comparison failed.
+    Failed,
+    /// Ctrl-C; what was finished is written.
+    Interrupted,
+}
+
+impl Outcome {
+    /// 0, 1, and 128 + SIGINT as shells have it.
+    pub(super) fn exit_code(self) -> u8 {
+        match self {
+            Self::Done => 0,
+            Self::Failed => 1,
+            Self::Interrupted => 130,
+        }
+    }
+}
+
+/// Why a command could not do what it was asked.
+#[derive(Debug, Error)]
+pub(super) enum CliError {
+    /// Flags that do not go together, or not with this scene.
+    #[error("{message}")]
+    Usage {
+        /// What is wrong.
+        message: String,
+        /// What to do.
+        hint: Option<String>,
+    },
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    #[error(transparent)]
+    Encode(#[from] EncodeError),
+    #[error(transparent)]
+    Load(#[from] LoadError),
+    #[error(transparent)]
+    Difference(#[from] DifferenceError),
+    #[error(transparent)]
+    Cpu(#[from] CpuError),
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    #[error("cannot write the report as JSON: {0}")]
+    Json(serde_json::Error),
+}
+
+impl CliError {
+    /// Flags that do not go together.
+    pub(super) fn usage(message: impl Into<String>) -> Self {
+        Self::Usage { message: message.into(), hint: None }
+    }
+
+    /// The same with advice.
+    pub(super) fn hint(self, hint: impl Into<String>) -> Self {
+        match self {
+            Self::Usage { message, .. } => Self::Usage { message, hint: Some(hint.into()) },
+            other => other,
+        }
+    }
+
+    /// 2 for usage, scenes and files; 3 and 4 as devices say.
+    pub(super) fn exit_code(&self) -> u8 {
+        if self.is_closed_pipe() {
+            return Outcome::Done.exit_code();
+        }
+        match self {
+            Self::Gpu(error) => error.exit_code(),
+            Self::Usage { .. }
+            | Self::Cpu(_)
+            | Self::Scene(_)
+            | Self::Output(_)
+            | Self::Encode(_)
+            | Self::Load(_)
+            | Self::Difference(_)
+            | Self::Json(_) => 2,
+        }
+    }
+
+    /// Whether the reader of standard output has seen enough (`snellius check … | head`).
+    pub(super) fn is_closed_pipe(&self) -> bool {
+        matches!(self, Self::Output(OutputError::Io { error, .. }) if error.kind() == io::ErrorKind::BrokenPipe)
+    }
+
+    /// The message as a compiler would print it, without a last line break.
+    pub(super) fn render(&self, color: bool) -> String {
+        if let Self::Scene(error) = self {
+            let faults: Vec<_> = error.diagnostics().iter().map(|fault| fault.render(color)).collect();
+            return faults.join("\n\n");
+        }
+        let hint = if let Self::Usage { hint, .. } = self { hint.clone() } else { None };
+        Diagnostic { hint, ..Diagnostic::error(self.to_string()) }.render(color)
+    }
+}

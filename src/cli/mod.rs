@@ -1,0 +1,114 @@
+//! The command line: raw arguments, then a typed configuration, then the run; one file a command.
+//!
+//! Errors travel up as values and are printed here, once. Exit codes: 0 done; 1 a comparison failed;
+//! 2 usage, scene or file error; 3 no such device; 4 device lost; 130 interrupted by Ctrl-C.
+
+mod check;
+mod console;
+mod device;
+mod devices;
+mod diff;
+mod error;
+mod prepare;
+mod render;
+mod values;
+mod view;
+
+use std::io;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{CommandFactory, Parser, Subcommand};
+use tracing_subscriber::EnvFilter;
+
+use console::Console;
+use error::{CliError, Outcome};
+
+/// A ray tracer for ice, glass, liquids and mirrors, on the GPU and the CPU
+#[derive(Debug, Parser)]
+#[command(
+    name = "snellius",
+    version,
+    args_conflicts_with_subcommands = true,
+    after_help = "\
+Examples:
+  snellius render scenes/ice.toml -o ice.png
+  snellius check scenes/ice.toml
+  snellius help render
+
+Exit codes: 0 done; 1 a comparison failed; 2 usage, scene or file error; 3 no such device;
+4 device lost; 130 interrupted by Ctrl-C.
+Environment: WGPU_BACKEND, WGPU_ADAPTER_NAME, RAYON_NUM_THREADS, NO_COLOR, RUST_LOG."
+)]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+    /// A scene to open: .toml or .obj
+    scene: Option<PathBuf>,
+    /// Say nothing on standard error but errors
+    #[arg(short, long, global = true, conflicts_with = "verbose", help_heading = "Messages")]
+    quiet: bool,
+    /// Say more; twice: log what the libraries do
+    #[arg(short, long, global = true, action = clap::ArgAction::Count, help_heading = "Messages")]
+    verbose: u8,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Render(Box<render::RenderArgs>),
+    Check(check::CheckArgs),
+    Devices(devices::DevicesArgs),
+    Diff(diff::DiffArgs),
+}
+
+/// Parse the process's arguments and run the command; returns the exit code.
+#[must_use]
+pub fn main() -> ExitCode {
+    // clap prints help and usage errors, and exits with 0 and 2.
+    let cli = Cli::parse();
+    let console = Console::new(cli.quiet, cli.verbose > 0);
+    log_to_stderr(cli.verbose);
+    let code = match run(cli, console) {
+        Ok(outcome) => outcome.exit_code(),
+        Err(error) => {
+            console.error(&error);
+            error.exit_code()
+        }
+    };
+    ExitCode::from(code)
+}
+
+fn run(cli: Cli, console: Console) -> Result<Outcome, CliError> {
+    match (cli.command, cli.scene) {
+        (Some(Command::Render(args)), _) => render::run(*args, console),
+        (Some(Command::Check(args)), _) => check::run(&args),
+        (Some(Command::Devices(args)), _) => devices::run(&args, console),
+        (Some(Command::Diff(args)), _) => diff::run(args, console),
+        (None, Some(scene)) => Err(view::no_viewer(&scene)),
+        (None, None) => {
+            console::print(&Cli::command().render_help().to_string())?;
+            Ok(Outcome::Done)
+        }
+    }
+}
+
+/// Log to standard error what `RUST_LOG` asks for, else what `-v` does.
+fn log_to_stderr(verbose: u8) {
+    let default = match verbose {
+        0 => "error",
+        1 => "snellius=info,warn",
+        _ => "snellius=debug,info",
+    };
+    let filter = EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new(default));
+    tracing_subscriber::fmt().with_env_filter(filter).with_writer(io::stderr).init();
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_arguments_are_consistent() {
+        Cli::command().debug_assert();
+    }
+}

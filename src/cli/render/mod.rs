@@ -1,0 +1,159 @@
+//! `snellius render`: a scene to a picture.
+
+mod args;
+mod config;
+mod export;
+mod progress;
+mod report;
+
+use std::time::{Duration, Instant};
+
+use super::console::{Console, print_json};
+use super::device::Device;
+use super::prepare::Prepared;
+use super::values::{EffectsChoice, Size, name_of};
+use super::{CliError, Outcome};
+use crate::film::{Frame, Metadata, Renderer, Summary};
+use crate::flatten;
+use crate::layout::{Effect, Effects, Settings};
+use crate::scene::RenderDefaults;
+pub(super) use args::RenderArgs;
+use config::RenderConfig;
+use progress::RenderProgress;
+use report::{RenderReport, Times};
+
+pub(super) fn run(args: RenderArgs, console: Console) -> Result<Outcome, CliError> {
+    let started = Instant::now();
+    let config = RenderConfig::new(args)?;
+    let prepared = Prepared::new(&config.scene)?;
+    let Prepared { scene, flat, warnings, .. } = &prepared;
+    warnings.iter().for_each(|warning| console.warn_of(warning));
+    let render = config.overridden(&scene.render);
+    let settings = config.settings(&render);
+    let crop = config.crop(render.size)?;
+    let view = flatten::view(scene, flat, &scene.camera, render.size, crop, &settings);
+    let mut device = config.device.clone().settle(config.precision, console).open(flat)?;
+    let frame = {
+        let progress = RenderProgress::start(config.progress, console);
+        device.render(&view, &settings, &progress)?
+    };
+    let job = Job { config: &config, prepared: &prepared, render, settings, device: &device, frame: &frame };
+    let encode = job.write_pictures(console)?;
+    let times = Times::new(prepared.load, prepared.bvh, frame.times, encode, started.elapsed());
+    if config.json {
+        print_json(&job.report(times))?;
+    }
+    job.summarise(times, console);
+    Ok(if frame.complete { Outcome::Done } else { Outcome::Interrupted })
+}
+
+/// A traced frame and all that is known of how it came about.
+struct Job<'a> {
+    config: &'a RenderConfig,
+    prepared: &'a Prepared,
+    render: RenderDefaults,
+    settings: Settings,
+    device: &'a Device<'a>,
+    frame: &'a Frame,
+}
+
+impl Job<'_> {
+    /// Write the picture and the AOVs; returns the time that took.
+    fn write_pictures(&self, console: Console) -> Result<Duration, CliError> {
+        let started = Instant::now();
+        let metadata = self.metadata();
+        if let Some(output) = &self.config.output {
+            export::write_radiance(self.frame, output, self.config.png, &metadata)?;
+        }
+        for (kind, output) in &self.config.aovs {
+            export::write_aov(self.frame, *kind, output, &metadata, console)?;
+        }
+        Ok(started.elapsed())
+    }
+
+    fn metadata(&self) -> Metadata {
+        let summary = Summary::of(self.frame);
+        let metadata = Metadata::new()
+            .with("scene", self.config.scene.display().to_string())
+            .with("settings", self.settings_line())
+            .with("device", self.device.name())
+            .with("driver", self.device.driver())
+            .with("effects", self.effect_names().join(", "))
+            .with("seconds", format!("{:.3}", self.frame.times.trace.as_secs_f64()))
+            .with("complete", if self.frame.complete { "yes" } else { "no: interrupted, the rest is black" });
+        match summary.non_finite_pixels {
+            0 => metadata,
+            pixels => metadata.with("pixels not finite", pixels.to_string()),
+        }
+    }
+
+    fn settings_line(&self) -> String {
+        let RenderDefaults { size, depth, cutoff, samples } = self.render;
+        let Settings { precision, intersector, .. } = self.settings;
+        let words = [name_of(precision), name_of(self.frame.float), name_of(intersector)];
+        let crop = self.config.crop.map_or_else(String::new, |crop| format!(", crop {crop}"));
+        format!(
+            "{}, depth {depth}, cutoff {cutoff}, samples {samples}, {}{crop}",
+            Size(size),
+            words.join(", ")
+        )
+    }
+
+    fn effect_names(&self) -> Vec<String> {
+        let called_for = Effects::of(&self.prepared.flat, &self.settings);
+        let simulated =
+            |effect: &Effect| self.config.effects == EffectsChoice::All || called_for.has(*effect);
+        Effect::ALL.into_iter().filter(simulated).map(|effect| effect.name().to_owned()).collect()
+    }
+
+    fn report(&self, times_ms: Times) -> RenderReport {
+        let Summary { dropped, bound, .. } = Summary::of(self.frame);
+        RenderReport {
+            scene: self.config.scene.display().to_string(),
+            backend: name_of(self.device.backend()),
+            adapter: self.device.name(),
+            driver: self.device.driver(),
+            precision: name_of(self.settings.precision),
+            float: name_of(self.frame.float),
+            size: self.render.size,
+            depth: self.render.depth,
+            cutoff: self.render.cutoff,
+            samples: self.render.samples,
+            triangles: self.prepared.flat.triangles.len(),
+            effects: self.effect_names(),
+            rays: self.frame.rays.into(),
+            times_ms,
+            dropped,
+            bound,
+            max_radiance: self.prepared.flat.radiance_bound.last().copied().unwrap_or_default(),
+        }
+    }
+
+    /// What a person wants to know at the end, and what may surprise.
+    fn summarise(&self, times: Times, console: Console) {
+        let Summary { non_finite_pixels, dropped, bound } = Summary::of(self.frame);
+        if non_finite_pixels > 0 {
+            console
+                .warn(format!("{non_finite_pixels} pixels are not finite; in PNG and HDR they are magenta"));
+        }
+        if self.frame.float != self.settings.float {
+            console.warn(format!(
+                "{} traced with --float {}, not {}",
+                self.device.name(),
+                name_of(self.frame.float),
+                name_of(self.settings.float)
+            ));
+        }
+        if !self.frame.complete {
+            console.warn("interrupted: a part of the picture is missing");
+        }
+        if let Some(output) = &self.config.output {
+            console.note(format!("{output}: {}; {:.2} s", self.settings_line(), times.total / 1e3));
+        }
+        console.detail(times);
+        console.detail(format!(
+            "weight of cut rays: mean {:.3e}, greatest {:.3e}; error of a pixel at most {:.3e}",
+            dropped.mean, dropped.max, bound.max
+        ));
+    }
+}

@@ -1,0 +1,161 @@
+//! The CPU renderer: rayon over tiles, around [`kernel::whitted`](crate::kernel::whitted).
+
+use std::ops::ControlFlow;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+use rayon::prelude::*;
+
+use crate::film::{Frame, Progress, RayCounts, Renderer, TraceTimes};
+use crate::kernel::whitted::{Branch, trace_pixel};
+use crate::kernel::{Real, World};
+use crate::layout::{Aov, FlatScene, Float, Precision, Settings, Texel, View};
+
+/// Side of a tile in pixels: small enough to balance the end of a frame, large enough to amortise its bookkeeping.
+const TILE: u32 = 16;
+
+/// The CPU cannot start its threads.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot start {threads} threads: {source}; try fewer with --threads")]
+pub struct CpuError {
+    threads: usize,
+    source: rayon::ThreadPoolBuildError,
+}
+
+/// Traces a scene on the CPU. The picture does not depend on the number of threads.
+pub struct CpuRenderer<'a> {
+    scene: &'a FlatScene,
+    pool: rayon::ThreadPool,
+}
+
+impl<'a> CpuRenderer<'a> {
+    /// Use `threads` threads; 0 for one a core (or `RAYON_NUM_THREADS`).
+    ///
+    /// # Errors
+    /// If the operating system gives no threads.
+    pub fn new(scene: &'a FlatScene, threads: usize) -> Result<Self, CpuError> {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .map_err(|source| CpuError { threads, source })?;
+        Ok(Self { scene, pool })
+    }
+
+    /// How many threads trace.
+    #[must_use]
+    pub fn threads(&self) -> usize {
+        self.pool.current_num_threads()
+    }
+}
+
+impl Renderer for CpuRenderer<'_> {
+    type Error = CpuError;
+
+    fn render(
+        &mut self,
+        view: &View,
+        settings: &Settings,
+        progress: &dyn Progress,
+    ) -> Result<Frame, CpuError> {
+        let world = World { scene: self.scene, view, intersector: settings.intersector };
+        Ok(self.pool.install(|| match settings.precision {
+            Precision::F32 => render::<f32>(&world, settings, progress),
+            Precision::F64 => render::<f64>(&world, settings, progress),
+        }))
+    }
+}
+
+/// One tile's pixels, row by row.
+struct Tile {
+    x: u32,
+    y: u32,
+    width: u32,
+    texels: Vec<Texel>,
+    aovs: Vec<Aov>,
+    rays: [u64; 4],
+}
+
+fn render<R: Real>(world: &World, settings: &Settings, progress: &dyn Progress) -> Frame {
+    let [_, _, width, height] = world.view.crop;
+    let pixels = width as usize * height as usize;
+    let frame = Mutex::new(Frame {
+        width,
+        height,
+        texels: vec![Texel::default(); pixels],
+        aovs: settings.aovs.then(|| vec![Aov::default(); pixels]),
+        float: Float::Strict,
+        rays: RayCounts::default(),
+        times: TraceTimes::default(),
+        complete: true,
+    });
+    let started = Instant::now();
+    let columns = width.div_ceil(TILE);
+    let tiles = columns * height.div_ceil(TILE);
+    let done = AtomicU64::new(0);
+    let stop = AtomicBool::new(false);
+    (0..tiles).into_par_iter().for_each_init(Vec::new, |stack, index| {
+        if stop.load(Ordering::Relaxed) {
+            return;
+        }
+        let tile = trace_tile::<R>(world, stack, index % columns, index / columns);
+        // Nothing panics while the lock is held.
+        let mut frame = frame.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        paste(&mut frame, &tile);
+        drop(frame);
+        let finished = done.fetch_add(1, Ordering::Relaxed) + 1;
+        if progress.advance(finished, u64::from(tiles)) == ControlFlow::Break(()) {
+            stop.store(true, Ordering::Relaxed);
+        }
+    });
+    let mut frame = frame.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    frame.complete = done.into_inner() == u64::from(tiles);
+    frame.times =
+        TraceTimes { trace: started.elapsed().max(Duration::from_nanos(1)), ..TraceTimes::default() };
+    frame
+}
+
+fn trace_tile<R: Real>(world: &World, stack: &mut Vec<Branch<R>>, column: u32, row: u32) -> Tile {
+    let [left, top, width, height] = world.view.crop;
+    let (x, y) = (column * TILE, row * TILE);
+    let (w, h) = (TILE.min(width - x), TILE.min(height - y));
+    let mut tile = Tile {
+        x,
+        y,
+        width: w,
+        texels: vec![Texel::default(); (w * h) as usize],
+        aovs: vec![Aov::default(); (w * h) as usize],
+        rays: [0; 4],
+    };
+    for i in 0..w * h {
+        let pixel = [left + x + i % w, top + y + i / w];
+        let rays = trace_pixel(
+            world,
+            stack,
+            pixel,
+            0..world.view.samples,
+            &mut tile.texels[i as usize],
+            &mut tile.aovs[i as usize],
+        );
+        for (sum, n) in tile.rays.iter_mut().zip(rays) {
+            *sum += u64::from(n);
+        }
+    }
+    tile
+}
+
+fn paste(frame: &mut Frame, tile: &Tile) {
+    let width = tile.width as usize;
+    for (row, texels) in tile.texels.chunks(width).enumerate() {
+        let first = (tile.y as usize + row) * frame.width as usize + tile.x as usize;
+        frame.texels[first..first + width].copy_from_slice(texels);
+        if let Some(aovs) = &mut frame.aovs {
+            aovs[first..first + width].copy_from_slice(&tile.aovs[row * width..(row + 1) * width]);
+        }
+    }
+    let [primary, reflection, refraction, shadow] = tile.rays;
+    frame.rays.primary += primary;
+    frame.rays.reflection += reflection;
+    frame.rays.refraction += refraction;
+    frame.rays.shadow += shadow;
+}

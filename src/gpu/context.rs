@@ -1,0 +1,188 @@
+//! The connection to one adapter, with every complaint of the driver turned into an error.
+
+use std::ops::Range;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use super::adapters::{AdapterReport, choose, instance};
+use super::{GpuError, GpuOptions};
+
+/// How long one submission may take before the device counts as lost: a thousand times what it is meant to.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// Bytes that one submission moves between the host and the device.
+const TRANSFER: u64 = 32 << 20;
+
+/// A device, its queue, and what went wrong there.
+pub(super) struct Context {
+    pub(super) adapter: AdapterReport,
+    pub(super) device: wgpu::Device,
+    pub(super) queue: wgpu::Queue,
+    faults: Arc<Mutex<Option<Fault>>>,
+}
+
+/// What a driver reported behind the program's back.
+#[derive(Debug)]
+enum Fault {
+    Lost(String),
+    Error(String),
+}
+
+impl Context {
+    /// Open the adapter that the options ask for.
+    pub(super) fn new(options: &GpuOptions) -> Result<Self, GpuError> {
+        let adapter = choose(&instance(), options.adapter.as_deref())?;
+        let report = AdapterReport::new(&adapter);
+        let offered = adapter.features();
+        let descriptor = wgpu::DeviceDescriptor {
+            label: Some("snellius"),
+            required_features: offered & (wgpu::Features::PASSTHROUGH_SHADERS | wgpu::Features::SHADER_F64),
+            required_limits: wgpu::Limits {
+                max_storage_buffer_binding_size: report.max_storage_binding,
+                max_buffer_size: report.max_buffer,
+                ..wgpu::Limits::default()
+            },
+            ..wgpu::DeviceDescriptor::default()
+        };
+        let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
+            .map_err(|error| report.refused("a device", error.to_string()))?;
+        let faults = Arc::default();
+        listen(&device, &faults);
+        Ok(Self { adapter: report, device, queue, faults })
+    }
+
+    /// What the driver reported since the last time.
+    pub(super) fn check(&self) -> Result<(), GpuError> {
+        match self.faults.lock().unwrap_or_else(PoisonError::into_inner).take() {
+            None => Ok(()),
+            Some(Fault::Lost(reason)) => Err(GpuError::DeviceLost { reason }),
+            Some(Fault::Error(reason)) => Err(self.adapter.refused("a command", reason)),
+        }
+    }
+
+    /// Wait until all that was submitted is done.
+    pub(super) fn wait(&self) -> Result<(), GpuError> {
+        let wait = wgpu::PollType::Wait { submission_index: None, timeout: Some(PATIENCE) };
+        // wgpu panics when a device is lost while it is waited for; the callback has the reason.
+        let waited = catch_unwind(AssertUnwindSafe(|| self.device.poll(wait)));
+        self.check()?;
+        let lost = |reason: String| GpuError::DeviceLost { reason };
+        match waited {
+            Ok(Ok(_)) => Ok(()),
+            Ok(Err(error)) => Err(lost(error.to_string())),
+            Err(_) => Err(lost("the driver gave up while it was waited for".into())),
+        }
+    }
+
+    /// Room for commands.
+    pub(super) fn encoder(&self) -> wgpu::CommandEncoder {
+        self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default())
+    }
+
+    /// Whether one buffer can hold that much and a shader see it.
+    pub(super) fn check_size(&self, what: &'static str, needed: u64) -> Result<(), GpuError> {
+        let limit = self.adapter.max_storage_binding.min(self.adapter.max_buffer);
+        if needed <= limit {
+            return Ok(());
+        }
+        Err(GpuError::TooLarge { what, needed, limit, adapter: self.adapter.name.clone() })
+    }
+
+    /// A buffer of zeros that is within the limits.
+    pub(super) fn buffer(
+        &self,
+        what: &'static str,
+        size: u64,
+        usage: wgpu::BufferUsages,
+    ) -> Result<wgpu::Buffer, GpuError> {
+        self.check_size(what, size)?;
+        let scope = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+        let descriptor = wgpu::BufferDescriptor { label: Some(what), size, usage, mapped_at_creation: false };
+        let buffer = self.device.create_buffer(&descriptor);
+        if pollster::block_on(scope.pop()).is_some() {
+            return Err(GpuError::OutOfMemory { what, needed: size, adapter: self.adapter.name.clone() });
+        }
+        self.check()?;
+        Ok(buffer)
+    }
+
+    /// Copy into a buffer from its start, in parts, so that the driver's copy of them stays small.
+    pub(super) fn write(&self, buffer: &wgpu::Buffer, bytes: &[u8]) -> Result<(), GpuError> {
+        for (part, offset) in bytes.chunks(TRANSFER as usize).zip((0..).step_by(TRANSFER as usize)) {
+            self.queue.write_buffer(buffer, offset, part);
+            self.queue.submit([]);
+            self.wait()?;
+        }
+        Ok(())
+    }
+
+    /// Copy out of a buffer, in parts, each handed to `take`.
+    pub(super) fn read(
+        &self,
+        buffer: &wgpu::Buffer,
+        range: Range<u64>,
+        mut take: impl FnMut(&[u8]),
+    ) -> Result<(), GpuError> {
+        let staging = self.staging(TRANSFER.min(range.end - range.start))?;
+        let mut start = range.start;
+        while start < range.end {
+            let size = TRANSFER.min(range.end - start);
+            let mut encoder = self.encoder();
+            encoder.copy_buffer_to_buffer(buffer, start, &staging, 0, size);
+            self.queue.submit([encoder.finish()]);
+            self.map(&staging, size, &mut take)?;
+            start += size;
+        }
+        Ok(())
+    }
+
+    /// A buffer for results on their way to the host.
+    pub(super) fn staging(&self, size: u64) -> Result<wgpu::Buffer, GpuError> {
+        self.buffer("results", size, wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST)
+    }
+
+    /// Wait for all that was submitted, and show the first bytes of a staging buffer to `take`.
+    pub(super) fn map<T>(
+        &self,
+        staging: &wgpu::Buffer,
+        size: u64,
+        take: impl FnOnce(&[u8]) -> T,
+    ) -> Result<T, GpuError> {
+        let slice = staging.slice(..size);
+        // A failure shows in `get_mapped_range` below.
+        slice.map_async(wgpu::MapMode::Read, |_| ());
+        self.wait()?;
+        let view =
+            slice.get_mapped_range().map_err(|error| self.adapter.refused("results", error.to_string()))?;
+        let taken = take(&view);
+        drop(view);
+        staging.unmap();
+        Ok(taken)
+    }
+}
+
+impl AdapterReport {
+    /// The error of a driver that refuses what its limits and features allow.
+    pub(super) fn refused(&self, what: &'static str, reason: String) -> GpuError {
+        GpuError::Refused { adapter: self.name.clone(), what, reason: reason.trim().to_owned() }
+    }
+}
+
+/// Keep the first fault that the driver reports.
+fn listen(device: &wgpu::Device, faults: &Arc<Mutex<Option<Fault>>>) {
+    let note = |faults: &Mutex<Option<Fault>>, fault| {
+        faults.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(fault);
+    };
+    let sink = Arc::clone(faults);
+    device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+        note(&sink, Fault::Error(error.to_string()))
+    }));
+    let sink = Arc::clone(faults);
+    device.set_device_lost_callback(move |reason, message| {
+        // A device that the program itself closes is no loss.
+        if reason != wgpu::DeviceLostReason::Destroyed {
+            note(&sink, Fault::Lost(message));
+        }
+    });
+}

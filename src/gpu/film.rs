@@ -1,0 +1,87 @@
+//! The film in device memory: a head that counts, and the pixels.
+
+use bytemuck::{Pod, Zeroable, cast_slice, from_bytes};
+
+use super::GpuError;
+use super::context::Context;
+use crate::layout::{Aov, FilmHead, Texel};
+
+/// Bytes of the head.
+const HEAD: u64 = size_of::<FilmHead>() as u64;
+
+/// A pixel of a variant with AOVs.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
+struct FullTexel {
+    texel: Texel,
+    aov: Aov,
+}
+
+/// The film in device memory. A clone is the same film.
+#[derive(Clone)]
+pub(super) struct FilmBuffer {
+    pub(super) buffer: wgpu::Buffer,
+    head: wgpu::Buffer,
+    pixels: u64,
+    aovs: bool,
+}
+
+impl FilmBuffer {
+    /// Room for so many pixels.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`].
+    pub(super) fn new(context: &Context, pixels: u64, aovs: bool) -> Result<Self, GpuError> {
+        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
+        Ok(Self {
+            buffer: context.buffer("the picture", HEAD + pixels * texel_size(aovs), usage)?,
+            head: context.staging(HEAD)?,
+            pixels,
+            aovs,
+        })
+    }
+
+    /// Whether a picture of so many pixels goes in.
+    pub(super) fn fits(&self, pixels: u64, aovs: bool) -> bool {
+        (self.pixels, self.aovs) == (pixels, aovs)
+    }
+
+    /// Forget the picture.
+    pub(super) fn clear(&self, context: &Context) {
+        let mut encoder = context.encoder();
+        encoder.clear_buffer(&self.buffer, 0, None);
+        context.queue.submit([encoder.finish()]);
+    }
+
+    /// Bring the head out at the end of a submission, and clear it for the next.
+    pub(super) fn take_head(&self, encoder: &mut wgpu::CommandEncoder) {
+        encoder.copy_buffer_to_buffer(&self.buffer, 0, &self.head, 0, HEAD);
+        encoder.clear_buffer(&self.buffer, 0, Some(HEAD));
+    }
+
+    /// The head of the last submission, once that is done.
+    pub(super) fn head(&self, context: &Context) -> Result<FilmHead, GpuError> {
+        context.map(&self.head, HEAD, |bytes| *from_bytes(bytes))
+    }
+
+    /// The pixels, and their AOVs if the film has them.
+    pub(super) fn read(&self, context: &Context) -> Result<(Vec<Texel>, Option<Vec<Aov>>), GpuError> {
+        let mut texels = Vec::with_capacity(self.pixels as usize);
+        let mut aovs = Vec::new();
+        let end = HEAD + self.pixels * texel_size(self.aovs);
+        context.read(&self.buffer, HEAD..end, |bytes| {
+            if self.aovs {
+                let pixels: &[FullTexel] = cast_slice(bytes);
+                texels.extend(pixels.iter().map(|pixel| pixel.texel));
+                aovs.extend(pixels.iter().map(|pixel| pixel.aov));
+            } else {
+                texels.extend_from_slice(cast_slice(bytes));
+            }
+        })?;
+        Ok((texels, self.aovs.then_some(aovs)))
+    }
+}
+
+fn texel_size(aovs: bool) -> u64 {
+    if aovs { size_of::<FullTexel>() as u64 } else { size_of::<Texel>() as u64 }
+}

@@ -1,0 +1,148 @@
+//! How much work goes into one submission: as much as the adapter does in a small part of a second.
+//!
+//! Work is counted in units of one sample of one block. An operating system resets a device that is busy for
+//! seconds, and a desktop stutters well before; submissions of 25 ms cost a fraction of a percent in waiting.
+
+use std::time::Duration;
+
+use crate::layout::Tile;
+
+/// What a submission is meant to take; work ahead can be twice as hard as that behind.
+const TARGET: Duration = Duration::from_millis(25);
+/// Units of the first submission.
+const FIRST: f64 = 8.0;
+/// Greatest growth from one submission to the next: rays may meet a harder part of the picture.
+const GROWTH: f64 = 2.0;
+/// Fewest blocks that keep an adapter busy; where they take too long together, their samples are split.
+const LEAST_BLOCKS: u32 = 16;
+/// Workgroups of one dispatch along x (WebGPU's `maxComputeWorkgroupsPerDimension`).
+const MOST_BLOCKS: u32 = 65_535;
+
+/// Cuts a picture into tiles, one submission after the other.
+#[derive(Debug)]
+pub(super) struct Pace {
+    blocks: u32,
+    samples: u32,
+    /// The tile that was submitted last, or one before the first.
+    last: Tile,
+    /// Units that fit one submission.
+    units: f64,
+}
+
+impl Pace {
+    /// A picture of so many blocks and samples per pixel.
+    pub(super) fn new(blocks: u32, samples: u32) -> Self {
+        let last = Tile { first_block: 0, block_count: 0, first_sample: 0, sample_count: samples };
+        Self { blocks, samples, last, units: FIRST }
+    }
+
+    /// The next tile to submit; none when the picture is done.
+    pub(super) fn next(&mut self) -> Option<Tile> {
+        let first_sample = self.last.first_sample + self.last.sample_count;
+        self.last = if first_sample < self.samples {
+            Tile {
+                first_sample,
+                sample_count: self.fitting_samples(self.last.block_count, first_sample),
+                ..self.last
+            }
+        } else {
+            let first_block = self.last.first_block + self.last.block_count;
+            let block_count = self.fitting_blocks().min(self.blocks - first_block);
+            Tile {
+                first_block,
+                block_count,
+                first_sample: 0,
+                sample_count: self.fitting_samples(block_count, 0),
+            }
+        };
+        (self.last.block_count > 0).then_some(self.last)
+    }
+
+    /// Learn from what the last tile took.
+    pub(super) fn took(&mut self, elapsed: Duration) {
+        let units = f64::from(self.last.block_count) * f64::from(self.last.sample_count);
+        let fitting = units * TARGET.as_secs_f64() / elapsed.as_secs_f64().max(1e-6);
+        self.units = fitting.min(units * GROWTH).max(1.0);
+    }
+
+    /// Units done, and all of them.
+    pub(super) fn progress(&self) -> (u64, u64) {
+        let Tile { first_block, block_count, first_sample, sample_count } = self.last;
+        let done = u64::from(first_block) * u64::from(self.samples)
+            + u64::from(block_count) * u64::from(first_sample + sample_count);
+        (done, u64::from(self.blocks) * u64::from(self.samples))
+    }
+
+    /// Blocks whose samples are all traced.
+    pub(super) fn finished_blocks(&self) -> u32 {
+        let Tile { first_block, block_count, first_sample, sample_count } = self.last;
+        if first_sample + sample_count == self.samples { first_block + block_count } else { first_block }
+    }
+
+    /// Blocks of the next tile: with all their samples if enough of them fit.
+    fn fitting_blocks(&self) -> u32 {
+        let whole = self.units / f64::from(self.samples);
+        let split = self.units.min(f64::from(LEAST_BLOCKS));
+        (whole.max(split) as u32).clamp(1, MOST_BLOCKS)
+    }
+
+    /// Samples of the next tile of so many blocks.
+    fn fitting_samples(&self, blocks: u32, first: u32) -> u32 {
+        let fitting = self.units / f64::from(blocks.max(1));
+        (fitting as u32).clamp(1, self.samples - first)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The tiles of a picture on an adapter that takes so long for a unit.
+    fn tiles(blocks: u32, samples: u32, unit: Duration) -> Vec<Tile> {
+        let mut pace = Pace::new(blocks, samples);
+        let mut tiles = Vec::new();
+        while let Some(tile) = pace.next() {
+            tiles.push(tile);
+            pace.took(unit * tile.block_count * tile.sample_count);
+        }
+        assert_eq!(pace.finished_blocks(), blocks);
+        assert_eq!(pace.progress().0, pace.progress().1);
+        tiles
+    }
+
+    #[test]
+    fn every_sample_of_every_block_is_traced_once_and_in_order() {
+        for (blocks, samples, micros) in
+            [(1, 1, 10), (4800, 4, 1), (300, 7, 400), (40, 64, 30_000), (70_000, 1, 0)]
+        {
+            let mut next = vec![0; blocks as usize];
+            for tile in tiles(blocks, samples, Duration::from_micros(micros)) {
+                for block in tile.first_block..tile.first_block + tile.block_count {
+                    assert_eq!(next[block as usize], tile.first_sample);
+                    next[block as usize] += tile.sample_count;
+                }
+            }
+            assert!(next.iter().all(|&done| done == samples));
+        }
+    }
+
+    #[test]
+    fn submissions_stay_under_fifty_milliseconds_at_any_speed() {
+        for micros in [1, 20, 300, 4000] {
+            let unit = Duration::from_micros(micros);
+            let longest =
+                tiles(4800, 16, unit).iter().map(|tile| unit * tile.block_count * tile.sample_count).max();
+            assert!(longest <= Some(Duration::from_millis(50)), "{micros} µs a unit: {longest:?}");
+        }
+    }
+
+    #[test]
+    fn a_fast_adapter_gets_few_submissions() {
+        assert!(tiles(4800, 4, Duration::from_nanos(100)).len() < 20);
+    }
+
+    #[test]
+    fn an_empty_picture_has_no_tiles() {
+        assert!(tiles(0, 4, Duration::ZERO).is_empty());
+    }
+}

@@ -1,0 +1,120 @@
+//! A compute pipeline out of one entry point of the shaders.
+
+use std::borrow::Cow;
+
+use super::assemble::{Shader, Source, assemble};
+use super::context::Context;
+use super::spirv::write_spirv;
+use super::{GpuError, Variant};
+use crate::layout::{Float, Precision};
+
+/// Bindings of group 0 that a shader only reads: nodes, triangles, attributes, corners, materials, lights, texels.
+pub(super) const READ_ONLY: u32 = 7;
+/// Binding of the buffer that a shader writes: the film, or the records of a probe.
+pub(super) const WRITTEN: u32 = READ_ONLY;
+/// Binding of the [`View`](crate::layout::View).
+pub(super) const VIEW: u32 = WRITTEN + 1;
+/// Binding of the [`Tile`](crate::layout::Tile), or of a probe's range.
+pub(super) const TILE: u32 = VIEW + 1;
+
+/// Group 0 of every pipeline. The bindings have no gaps: see [`write_spirv`].
+pub(super) fn bind_group_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    let entries: Vec<_> = (0..=TILE)
+        .map(|binding| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::COMPUTE,
+            ty: wgpu::BindingType::Buffer {
+                ty: match binding {
+                    VIEW | TILE => wgpu::BufferBindingType::Uniform,
+                    _ => wgpu::BufferBindingType::Storage { read_only: binding < READ_ONLY },
+                },
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            count: None,
+        })
+        .collect();
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("scene"),
+        entries: &entries,
+    })
+}
+
+/// Assemble and compile one entry point.
+///
+/// # Errors
+/// [`GpuError::Shader`], [`GpuError::NoF64`], [`GpuError::Refused`].
+pub(super) fn compile(
+    context: &Context,
+    layout: &wgpu::BindGroupLayout,
+    sources: &[Source<'_>],
+    (root, entry): (&str, &str),
+    variant: &Variant,
+) -> Result<wgpu::ComputePipeline, GpuError> {
+    if variant.precision == Precision::F64 && !context.adapter.f64 {
+        return Err(GpuError::NoF64 { adapter: context.adapter.name.clone() });
+    }
+    let shader = assemble(sources, root, entry, variant)?;
+    let scopes = [wgpu::ErrorFilter::Internal, wgpu::ErrorFilter::Validation]
+        .map(|filter| context.device.push_error_scope(filter));
+    let module = module(context, &shader, variant)?;
+    let layout = context.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(entry),
+        bind_group_layouts: &[Some(layout)],
+        ..wgpu::PipelineLayoutDescriptor::default()
+    });
+    let pipeline = context.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some(entry),
+        layout: Some(&layout),
+        module: &module,
+        entry_point: Some(entry),
+        compilation_options: wgpu::PipelineCompilationOptions {
+            zero_initialize_workgroup_memory: false,
+            ..wgpu::PipelineCompilationOptions::default()
+        },
+        cache: None,
+    });
+    for scope in scopes.into_iter().rev() {
+        if let Some(error) = pollster::block_on(scope.pop()) {
+            return Err(context.adapter.refused("a compute pipeline", error.to_string()));
+        }
+    }
+    context.check()?;
+    Ok(pipeline)
+}
+
+/// Hand the shader to the driver: decorated and as it is if strict, else through wgpu without run-time checks.
+fn module(context: &Context, shader: &Shader, variant: &Variant) -> Result<wgpu::ShaderModule, GpuError> {
+    match variant.float {
+        Float::Strict => {
+            let words = write_spirv(shader, variant)?;
+            let entry_points: Vec<_> = shader.module.entry_points.iter().map(entry_point).collect();
+            let descriptor = wgpu::ShaderModuleDescriptorPassthrough {
+                label: Some("strict"),
+                entry_points: entry_points.into(),
+                spirv: Some(words.into()),
+                ..wgpu::ShaderModuleDescriptorPassthrough::default()
+            };
+            // SAFETY: the words are naga's, of a module that it validated, and decorations do not change their
+            // meaning. Indices are within bounds for every scene that `flatten` makes, and loops end.
+            Ok(unsafe { context.device.create_shader_module_passthrough(descriptor) })
+        }
+        Float::Fast => {
+            let descriptor = wgpu::ShaderModuleDescriptor {
+                label: Some("fast"),
+                source: wgpu::ShaderSource::Wgsl(Cow::Borrowed(&shader.wgsl)),
+            };
+            // SAFETY: as above.
+            Ok(unsafe {
+                context
+                    .device
+                    .create_shader_module_trusted(descriptor, wgpu::ShaderRuntimeChecks::unchecked())
+            })
+        }
+    }
+}
+
+fn entry_point(point: &naga::EntryPoint) -> wgpu::PassthroughShaderEntryPoint<'_> {
+    let [x, y, z] = point.workgroup_size;
+    wgpu::PassthroughShaderEntryPoint { name: point.name.as_str().into(), workgroup_size: (x, y, z) }
+}

@@ -1,0 +1,94 @@
+//! Running one function of the kernel over many inputs: the harness of the lock-step comparison.
+//!
+//! A probe is an entry point `fn probe_NAME(@builtin(global_invocation_id) id: vec3u)` of workgroup size 64. It sees
+//! the scene in bindings 0–6 and 8 and, in place of film and tile,
+//!
+//! ```wgsl
+//! struct Range { first: u32, end: u32, stride: u32, reserved: u32 }
+//! @group(0) @binding(7) var<storage, read_write> records: array<u32>;
+//! @group(0) @binding(9) var<uniform> range: Range;
+//! ```
+//!
+//! Invocation `id.x` owns record `range.first + id.x`, if that is below `range.end`: the `range.stride` words from
+//! `record · range.stride` on. It reads its inputs there and overwrites them with its results.
+
+use super::assemble::Source;
+use super::buffers::SceneBuffers;
+use super::context::Context;
+use super::{AdapterReport, GpuError, GpuOptions, Variant, pipeline};
+use crate::layout::{FlatScene, View};
+
+/// Invocations of a workgroup.
+const GROUP: u32 = 64;
+/// Records of one dispatch: a small part of a second on any adapter.
+const DISPATCH: u32 = 1 << 16;
+
+/// A scene on an adapter, for probes.
+pub struct Prober {
+    context: Context,
+    scene: SceneBuffers,
+}
+
+impl Prober {
+    /// Open an adapter and upload the scene and view that probes see.
+    ///
+    /// # Errors
+    /// As [`GpuRenderer::new`](super::GpuRenderer::new).
+    pub fn new(scene: &FlatScene, view: &View, options: &GpuOptions) -> Result<Self, GpuError> {
+        let context = Context::new(options)?;
+        let scene = SceneBuffers::new(&context, scene)?;
+        scene.set_view(&context, view);
+        Ok(Self { context, scene })
+    }
+
+    /// The adapter that runs.
+    #[must_use]
+    pub fn adapter(&self) -> &AdapterReport {
+        &self.context.adapter
+    }
+
+    /// Run the entry point `entry` of the file `root` over records of `stride` words, in place.
+    ///
+    /// A rest of `records` shorter than `stride` is left alone.
+    ///
+    /// # Errors
+    /// [`GpuError::Shader`], [`GpuError::NoF64`], [`GpuError::Refused`], [`GpuError::TooLarge`] for the records,
+    /// [`GpuError::OutOfMemory`], [`GpuError::DeviceLost`].
+    pub fn run(
+        &self,
+        sources: &[Source<'_>],
+        (root, entry): (&str, &str),
+        variant: &Variant,
+        stride: usize,
+        records: &mut [u32],
+    ) -> Result<(), GpuError> {
+        let context = &self.context;
+        let pipeline = pipeline::compile(context, &self.scene.layout, sources, (root, entry), variant)?;
+        let size = size_of_val(records) as u64;
+        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
+        let buffer = context.buffer("the records", size.max(4), usage)?;
+        context.write(&buffer, bytemuck::cast_slice(records))?;
+        let group = self.scene.bind(context, &buffer);
+        let stride = stride.max(1);
+        let count = (records.len() / stride) as u32;
+        for first in (0..count).step_by(DISPATCH as usize) {
+            let end = count.min(first + DISPATCH);
+            self.scene.set_tile(context, [first, end, stride as u32, 0]);
+            let mut encoder = context.encoder();
+            {
+                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+                pass.set_pipeline(&pipeline);
+                pass.set_bind_group(0, &group, &[]);
+                pass.dispatch_workgroups((end - first).div_ceil(GROUP), 1, 1);
+            }
+            context.queue.submit([encoder.finish()]);
+            context.wait()?;
+        }
+        let mut at = 0;
+        context.read(&buffer, 0..size, |bytes| {
+            let words: &[u32] = bytemuck::cast_slice(bytes);
+            records[at..at + words.len()].copy_from_slice(words);
+            at += words.len();
+        })
+    }
+}

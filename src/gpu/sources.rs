@@ -1,0 +1,28 @@
+//! The shader files, embedded in the binary.
+
+use super::assemble::Source;
+
+macro_rules! sources {
+    ($($stem:literal)*) => { &[$(($stem, include_str!(concat!("../../shaders/", $stem, ".wgsl")))),*] };
+}
+
+/// Every file of `shaders/`, by stem.
+pub const SOURCES: &[Source<'static>] = sources! {
+    "background"
+    "bindings"
+    "bvh"
+    "camera"
+    "film"
+    "hash"
+    "light"
+    "material"
+    "math"
+    "media"
+    "real"
+    "records"
+    "render"
+    "surface"
+    "texture"
+    "triangle"
+    "whitted"
+};

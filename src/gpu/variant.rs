@@ -1,0 +1,106 @@
+//! One assembly of the shaders: what is chosen before they are compiled.
+
+use crate::layout::constants::{ROUNDOFF_F32, ROUNDOFF_F64, SHARED, Shared};
+use crate::layout::{Float, Intersector, Precision, Settings};
+
+/// What is chosen before the shaders are compiled; the key of the pipeline cache.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Variant {
+    /// `real` is f32 or f64; feature `f64`.
+    pub precision: Precision,
+    /// Whether the arithmetic is decorated with NoContraction after assembly.
+    pub float: Float,
+    /// Feature `moller_trumbore`.
+    pub intersector: Intersector,
+    /// Feature `aovs`: the film holds [`Aov`](crate::layout::Aov)s.
+    pub aovs: bool,
+    /// Pending rays of a tree: one for each branching level. Constant `STACK_SIZE`.
+    pub stack_size: u32,
+    /// Pending nodes of a traversal. Constant `BVH_STACK`.
+    pub bvh_stack: u32,
+}
+
+impl Variant {
+    /// The variant that traces so through a BVH of `bvh_depth` nodes from root to leaf.
+    #[must_use]
+    pub fn new(bvh_depth: u32, settings: &Settings) -> Self {
+        Self {
+            precision: settings.precision,
+            float: settings.float,
+            intersector: settings.intersector,
+            aovs: settings.aovs,
+            stack_size: settings.depth.max(1),
+            bvh_stack: bvh_depth.saturating_sub(1).max(1),
+        }
+    }
+
+    /// What `@if(…)` asks for, and the answers.
+    #[must_use]
+    pub fn features(&self) -> [(&'static str, bool); 3] {
+        [
+            ("f64", self.precision == Precision::F64),
+            ("moller_trumbore", self.intersector == Intersector::MollerTrumbore),
+            ("aovs", self.aovs),
+        ]
+    }
+
+    /// The WGSL type that the shaders call `real`.
+    #[must_use]
+    pub fn real(&self) -> &'static str {
+        match self.precision {
+            Precision::F32 => "f32",
+            Precision::F64 => "f64",
+        }
+    }
+
+    /// The shader module `package::constants`: the shared numbers, and those of this variant.
+    #[must_use]
+    pub fn constants_module(&self) -> String {
+        let mut module = String::new();
+        for (name, value) in self.constants() {
+            module += &match value {
+                Shared::U32(value) => format!("const {name}: u32 = {value}u;\n"),
+                Shared::Real(value) => format!("const {name}: {} = {};\n", self.real(), self.literal(value)),
+            };
+        }
+        module
+    }
+
+    /// The shared numbers, and those of this variant, by name.
+    fn constants(&self) -> impl Iterator<Item = (&'static str, Shared)> {
+        let roundoff = match self.precision {
+            Precision::F32 => ROUNDOFF_F32,
+            Precision::F64 => ROUNDOFF_F64,
+        };
+        let own = [
+            ("ROUNDOFF", Shared::Real(roundoff)),
+            ("STACK_SIZE", Shared::U32(self.stack_size)),
+            ("BVH_STACK", Shared::U32(self.bvh_stack)),
+        ];
+        SHARED.iter().map(|&(name, value)| (name, value())).chain(own)
+    }
+
+    /// The shortest literal that reads back as the value, rounded once to `real` as Rust rounds it.
+    fn literal(&self, value: f64) -> String {
+        match self.precision {
+            Precision::F32 => format!("{:e}f", value as f32),
+            Precision::F64 => format!("{value:e}lf"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::PLAIN;
+    use super::*;
+
+    #[test]
+    fn constants_carry_the_type_of_the_variant() {
+        let single = PLAIN.constants_module();
+        assert!(single.contains("const MAX_DEPTH: u32 = 64u;\n"), "{single}");
+        assert!(single.contains("const PI: f32 = 3.1415927e0f;\n"), "{single}");
+        assert!(single.contains("const STACK_SIZE: u32 = 16u;\n"), "{single}");
+        let double = Variant { precision: Precision::F64, ..PLAIN }.constants_module();
+        assert!(double.contains("const PI: f64 = 3.141592653589793e0lf;\n"), "{double}");
+    }
+}

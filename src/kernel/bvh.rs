@@ -1,0 +1,229 @@
+//! Stop 2 of 7: bvh. Twin of `shaders/bvh.wgsl`.
+//!
+//! **Layout never shows.** The nearest hit, ties to the lowest primitive id, is the same for every tree over the same
+//! triangles. A triangle's rounded distance may lie before its own box's entry, so (1) slabs are widened by δ, a bound
+//! on all rounding; (2) a hit counts only if its own triangle's box is hit, and its distance is raised to that box's
+//! entry; (3) a node is culled only when its entry is beyond the best distance. Every step of the slab test is monotone
+//! in the box's corners, so a box that holds another is entered no later and left no earlier: no node above the
+//! winning triangle is ever culled.
+
+use crate::layout::Triangle;
+use crate::layout::constants::{FAR, LEAST_DIRECTION, MAX_BVH_DEPTH, NONE, SLAB_PADDING};
+
+use super::triangle::{Shear, intersect_triangle, shear_of};
+use super::{Real, Vec3, World};
+
+/// A ray, prepared for boxes and triangles.
+#[derive(Debug, Clone, Copy)]
+pub struct Ray<R> {
+    /// Where it starts.
+    pub origin: Vec3<R>,
+    /// Unit direction.
+    pub direction: Vec3<R>,
+    /// Reciprocal of the direction, finite.
+    pub reciprocal: Vec3<R>,
+    /// Origin + δ and origin − δ.
+    pub origin_hi: Vec3<R>,
+    /// See `origin_hi`.
+    pub origin_lo: Vec3<R>,
+    /// For the triangle test.
+    pub shear: Shear<R>,
+}
+
+/// The nearest triangle on a ray.
+#[derive(Debug, Clone, Copy)]
+pub struct Hit<R> {
+    /// Distance.
+    pub t: R,
+    /// Primitive id; `NONE` for a miss.
+    pub id: u32,
+    /// Index into the triangles.
+    pub index: u32,
+    /// Barycentric weight of the second corner.
+    pub b1: R,
+    /// Barycentric weight of the third corner.
+    pub b2: R,
+    /// Whether the ray comes from the front.
+    pub front: bool,
+}
+
+/// Where a ray is inside a box's widened slabs.
+#[derive(Debug, Clone, Copy)]
+pub struct Span<R> {
+    /// Not below 0.
+    pub entry: R,
+    /// Beyond `entry` where the box is hit.
+    pub exit: R,
+}
+
+/// Prepare a ray.
+pub fn make_ray<R: Real>(world: &World, origin: Vec3<R>, direction: Vec3<R>) -> Ray<R> {
+    let to_lo = (origin - Vec3::load(world.view.scene_lo)).abs();
+    let to_hi = (origin - Vec3::load(world.view.scene_hi)).abs();
+    let reach = to_lo.x.greatest(to_hi.x) + to_lo.y.greatest(to_hi.y) + to_lo.z.greatest(to_hi.z);
+    let delta = Vec3::splat(reach * R::of(SLAB_PADDING));
+    Ray {
+        origin,
+        direction,
+        reciprocal: direction.map(safe_reciprocal),
+        origin_hi: origin + delta,
+        origin_lo: origin - delta,
+        shear: shear_of(direction),
+    }
+}
+
+/// 1/d, finite: a component too small to matter counts as `LEAST_DIRECTION`; zero has no sign.
+pub fn safe_reciprocal<R: Real>(d: R) -> R {
+    let least = R::of(LEAST_DIRECTION);
+    let clamped = if d.abs() < least { least } else { d };
+    R::ONE / clamped
+}
+
+/// The widened slab test.
+pub fn slabs<R: Real>(ray: &Ray<R>, lo: Vec3<R>, hi: Vec3<R>) -> Span<R> {
+    let a = (lo - ray.origin_hi) * ray.reciprocal;
+    let b = (hi - ray.origin_lo) * ray.reciprocal;
+    let near_x = a.x.least(b.x);
+    let near_y = a.y.least(b.y);
+    let near_z = a.z.least(b.z);
+    let far_x = a.x.greatest(b.x);
+    let far_y = a.y.greatest(b.y);
+    let far_z = a.z.greatest(b.z);
+    Span {
+        entry: near_x.greatest(near_y).greatest(near_z.greatest(R::ZERO)),
+        exit: far_x.least(far_y).least(far_z),
+    }
+}
+
+/// The hit on one triangle if it is nearer than `best`, or as near with a lower id; else `best`.
+pub fn nearer<R: Real>(world: &World, ray: &Ray<R>, index: u32, best: Hit<R>) -> Hit<R> {
+    let tri = &world.scene.triangles[index as usize];
+    let Some(c) = intersect_triangle(world.intersector, ray.origin, ray.direction, &ray.shear, tri) else {
+        return best;
+    };
+    let own = triangle_slabs(ray, tri);
+    let t = c.t.greatest(own.entry);
+    let wins = t < best.t || (t == best.t && tri.id < best.id);
+    if !wins || own.entry > own.exit {
+        return best;
+    }
+    Hit { t, id: tri.id, index, b1: c.b1, b2: c.b2, front: c.front }
+}
+
+/// The slab test of a triangle's own box.
+pub fn triangle_slabs<R: Real>(ray: &Ray<R>, tri: &Triangle) -> Span<R> {
+    let (v0, v1, v2) = (Vec3::<R>::load(tri.v0), Vec3::<R>::load(tri.v1), Vec3::<R>::load(tri.v2));
+    let lo =
+        Vec3::new(v0.x.least(v1.x).least(v2.x), v0.y.least(v1.y).least(v2.y), v0.z.least(v1.z).least(v2.z));
+    let hi = Vec3::new(
+        v0.x.greatest(v1.x).greatest(v2.x),
+        v0.y.greatest(v1.y).greatest(v2.y),
+        v0.z.greatest(v1.z).greatest(v2.z),
+    );
+    slabs(ray, lo, hi)
+}
+
+/// The nearest triangle in (0, limit), ties to the lowest primitive id.
+pub fn intersect<R: Real>(world: &World, ray: &Ray<R>, limit: R) -> Hit<R> {
+    let mut best = Hit { t: limit, id: 0, index: NONE, b1: R::ZERO, b2: R::ZERO, front: false };
+    let mut stack = [0u32; MAX_BVH_DEPTH as usize];
+    let mut size = 0;
+    let mut at = 0u32;
+    loop {
+        // Meet both children.
+        let node = &world.scene.nodes[at as usize];
+        let a = slabs(ray, Vec3::load(node.a_lo), Vec3::load(node.a_hi));
+        let b = slabs(ray, Vec3::load(node.b_lo), Vec3::load(node.b_hi));
+        // Nearer child first.
+        let swap = b.entry < a.entry;
+        let (near, far) = if swap { (b, a) } else { (a, b) };
+        let (near_first, near_count) =
+            if swap { (node.b_first, node.b_count) } else { (node.a_first, node.a_count) };
+        let (far_first, far_count) =
+            if swap { (node.a_first, node.a_count) } else { (node.b_first, node.b_count) };
+        // Leaves at once.
+        let mut near_inner = near.entry <= near.exit && near.entry <= best.t;
+        if near_inner && near_count > 0 {
+            for i in near_first..near_first + near_count {
+                best = nearer(world, ray, i, best);
+            }
+            near_inner = false;
+        }
+        let mut far_inner = far.entry <= far.exit && far.entry <= best.t;
+        if far_inner && far_count > 0 {
+            for i in far_first..far_first + far_count {
+                best = nearer(world, ray, i, best);
+            }
+            far_inner = false;
+        }
+        // Descend, the farther one waits.
+        if near_inner && far_inner {
+            stack[size] = far_first;
+            size += 1;
+            at = near_first;
+        } else if near_inner {
+            at = near_first;
+        } else if far_inner {
+            at = far_first;
+        } else if size > 0 {
+            size -= 1;
+            at = stack[size];
+        } else {
+            break;
+        }
+    }
+    if best.index == NONE {
+        best.id = NONE;
+    }
+    best
+}
+
+/// Whether any triangle lies in (0, limit): for scenes in which every blocker is opaque.
+pub fn occluded<R: Real>(world: &World, ray: &Ray<R>, limit: R) -> bool {
+    let start = Hit { t: limit, id: 0, index: NONE, b1: R::ZERO, b2: R::ZERO, front: false };
+    let mut stack = [0u32; MAX_BVH_DEPTH as usize];
+    let mut size = 0;
+    let mut at = 0u32;
+    loop {
+        let node = &world.scene.nodes[at as usize];
+        let a = slabs(ray, Vec3::load(node.a_lo), Vec3::load(node.a_hi));
+        let b = slabs(ray, Vec3::load(node.b_lo), Vec3::load(node.b_hi));
+        let mut a_inner = a.entry <= a.exit && a.entry <= limit;
+        if a_inner && node.a_count > 0 {
+            for i in node.a_first..node.a_first + node.a_count {
+                if nearer(world, ray, i, start).index != NONE {
+                    return true;
+                }
+            }
+            a_inner = false;
+        }
+        let mut b_inner = b.entry <= b.exit && b.entry <= limit;
+        if b_inner && node.b_count > 0 {
+            for i in node.b_first..node.b_first + node.b_count {
+                if nearer(world, ray, i, start).index != NONE {
+                    return true;
+                }
+            }
+            b_inner = false;
+        }
+        if a_inner && b_inner {
+            stack[size] = node.b_first;
+            size += 1;
+            at = node.a_first;
+        } else if a_inner {
+            at = node.a_first;
+        } else if b_inner {
+            at = node.b_first;
+        } else if size > 0 {
+            size -= 1;
+            at = stack[size];
+        } else {
+            return false;
+        }
+    }
+}
+
+/// The limit of a ray without end.
+pub fn far<R: Real>() -> R {
+    R::of(FAR)
+}

@@ -1,0 +1,41 @@
+//! Stop 7 of 7: film. Twin of `shaders/film.wgsl`.
+
+use crate::layout::Texel;
+use crate::layout::constants::LEAST_NORMAL;
+
+use super::whitted::Sample;
+use super::{Real, Vec3, World};
+
+/// Add sample `index` to a pixel's running sums; the last one divides them by the number of samples.
+pub fn add<R: Real>(world: &World, texel: &mut Texel, sample: &Sample<R>, index: u32) {
+    let r = sample.radiance;
+    texel.radiance[0] += flush(r.x);
+    texel.radiance[1] += flush(r.y);
+    texel.radiance[2] += flush(r.z);
+    texel.dropped += flush(sample.dropped);
+    texel.bound += flush(sample.bound);
+    texel.rays += sample.rays;
+    if index == 0 {
+        texel.primitive_hash = sample.primitive_hash;
+        texel.body_hash = sample.body_hash;
+    }
+    if index + 1 == world.view.samples {
+        let n = world.view.samples as i32 as f32;
+        texel.radiance[0] = flush(texel.radiance[0] / n);
+        texel.radiance[1] = flush(texel.radiance[1] / n);
+        texel.radiance[2] = flush(texel.radiance[2] / n);
+        texel.dropped = flush(texel.dropped / n);
+        texel.bound = flush(texel.bound / n);
+    }
+}
+
+/// To f32, with subnormals as 0: devices differ on them.
+pub fn flush<R: Real>(x: R) -> f32 {
+    let f = x.to_f32();
+    if f.abs() < LEAST_NORMAL { 0.0 } else { f }
+}
+
+/// A vector through [`flush`].
+pub fn flush3<R: Real>(v: Vec3<R>) -> [f32; 3] {
+    [flush(v.x), flush(v.y), flush(v.z)]
+}

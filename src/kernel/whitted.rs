@@ -1,0 +1,280 @@
+//! The itinerary: the whole ray tree of a sample (Whitted 1980), one loop with an explicit stack. Twin of
+//! `shaders/whitted.wgsl`.
+
+use crate::layout::constants::{
+    MAX_DEPTH, MAX_PASSES, NONE, RAY_PRIMARY, RAY_REFLECTION, RAY_REFRACTION, RAY_SHADOW,
+};
+use crate::layout::{Aov, Texel};
+
+use super::background::background;
+use super::bvh::{far, intersect, make_ray};
+use super::camera::primary_ray;
+use super::film;
+use super::hash::{mix_hash, sample_offset};
+use super::light::direct;
+use super::material::scatter;
+use super::math::max3;
+use super::media::{attenuation, cross_face, current_medium};
+use super::surface::{Surface, resolve, spawn_before, spawn_behind};
+use super::{Real, Vec3, World};
+
+/// A ray of the tree that is still to be traced.
+#[derive(Debug, Clone, Copy)]
+pub struct Branch<R> {
+    /// Where it starts.
+    pub origin: Vec3<R>,
+    /// Media mask there.
+    pub media: u32,
+    /// Unit direction.
+    pub direction: Vec3<R>,
+    /// 0 for the primary ray.
+    pub depth: u32,
+    /// What its radiance counts for in the pixel, per channel.
+    pub weight: Vec3<R>,
+    /// What made it: `RAY_PRIMARY`, `RAY_REFLECTION` or `RAY_REFRACTION`.
+    pub kind: u32,
+}
+
+/// How a branch ends: where it meets a surface that matters, or `found` false where it meets none.
+#[derive(Debug, Clone, Copy)]
+pub struct Landing<R> {
+    /// Whether there is a surface.
+    pub found: bool,
+    /// Whether the ray was stuck between interfaces without effect.
+    pub stuck: bool,
+    /// The surface.
+    pub surface: Surface<R>,
+    /// Distance travelled.
+    pub distance: R,
+    /// Media mask on arrival.
+    pub media: u32,
+    /// Media mask behind the surface.
+    pub media_behind: u32,
+}
+
+/// What one sample gives the film.
+#[derive(Debug, Clone, Copy)]
+pub struct Sample<R> {
+    /// Radiance.
+    pub radiance: Vec3<R>,
+    /// Summed largest weight channels of cut rays.
+    pub dropped: R,
+    /// Certified bound on what cutting them changed.
+    pub bound: R,
+    /// Traced rays of all kinds.
+    pub rays: u32,
+    /// Traced rays by kind: primary, reflection, refraction, shadow.
+    pub rays_by_kind: [u32; 4],
+    /// Over primitive ids, branches and light visibilities.
+    pub primitive_hash: u32,
+    /// Over bodies, sides, branches and light visibilities.
+    pub body_hash: u32,
+    /// What the primary ray met.
+    pub aov: Aov,
+}
+
+/// Trace samples [first, first + count) of a pixel of the whole picture onto its texel. The AOV is that of sample 0.
+pub fn trace_pixel<R: Real>(
+    world: &World,
+    stack: &mut Vec<Branch<R>>,
+    pixel: [u32; 2],
+    samples: std::ops::Range<u32>,
+    texel: &mut Texel,
+    aov: &mut Aov,
+) -> [u32; 4] {
+    let mut rays = [0; 4];
+    for i in samples {
+        let [dx, dy] = sample_offset::<R>(i);
+        let x = R::from_i32(pixel[0] as i32) + dx;
+        let y = R::from_i32(pixel[1] as i32) + dy;
+        let sample = trace_tree(world, stack, primary_ray(world, x, y));
+        film::add(world, texel, &sample, i);
+        for (sum, n) in rays.iter_mut().zip(sample.rays_by_kind) {
+            *sum += n;
+        }
+        if i == 0 {
+            *aov = sample.aov;
+        }
+    }
+    rays
+}
+
+/// Trace the tree of one primary ray.
+pub fn trace_tree<R: Real>(world: &World, stack: &mut Vec<Branch<R>>, direction: Vec3<R>) -> Sample<R> {
+    let mut sample = Sample {
+        radiance: Vec3::zero(),
+        dropped: R::ZERO,
+        bound: R::ZERO,
+        rays: 0,
+        rays_by_kind: [0; 4],
+        primitive_hash: 0,
+        body_hash: 0,
+        aov: Aov { body: NONE, medium: NONE, ..Aov::default() },
+    };
+    stack.clear();
+    stack.push(Branch {
+        origin: Vec3::load(world.view.eye),
+        media: world.view.start_media,
+        direction,
+        depth: 0,
+        weight: Vec3::one(),
+        kind: RAY_PRIMARY,
+    });
+    while let Some(branch) = stack.pop() {
+        let mut current = branch;
+        // Refraction goes on, reflection waits: one entry a branching level.
+        loop {
+            count_ray(&mut sample, current.kind);
+            let landing = find_surface(world, &current);
+            if !landing.found {
+                escape(world, &mut sample, &current, &landing);
+                break;
+            }
+            let next = shade(world, &mut sample, stack, &current, &landing);
+            match next {
+                Some(child) => current = child,
+                None => break,
+            }
+        }
+    }
+    sample
+}
+
+/// Count a traced ray.
+pub fn count_ray<R: Real>(sample: &mut Sample<R>, kind: u32) {
+    sample.rays += 1;
+    sample.rays_by_kind[kind as usize] += 1;
+}
+
+/// Follow a branch through interfaces that change no medium to the first surface that matters.
+pub fn find_surface<R: Real>(world: &World, branch: &Branch<R>) -> Landing<R> {
+    let mut origin = branch.origin;
+    let mut media = branch.media;
+    let mut distance = R::ZERO;
+    let mut landing = Landing {
+        found: false,
+        stuck: false,
+        surface: Surface::default(),
+        distance,
+        media,
+        media_behind: media,
+    };
+    for _ in 0..MAX_PASSES {
+        let ray = make_ray(world, origin, branch.direction);
+        let hit = intersect(world, &ray, far());
+        if hit.id == NONE {
+            return landing;
+        }
+        distance = distance + hit.t;
+        let surface = resolve(world, &ray, &hit);
+        let behind = cross_face(world, media, hit.id, hit.front);
+        let opaque =
+            max3(Vec3::<R>::load(world.scene.materials[surface.material as usize].transmission)) <= R::ZERO;
+        if opaque || current_medium(world, behind) != current_medium(world, media) {
+            return Landing { found: true, stuck: false, surface, distance, media, media_behind: behind };
+        }
+        media = behind;
+        origin = spawn_behind(&surface);
+    }
+    landing.stuck = true;
+    landing
+}
+
+/// A branch that meets nothing sees the background; a stuck one too, and counts as cut.
+pub fn escape<R: Real>(world: &World, sample: &mut Sample<R>, branch: &Branch<R>, landing: &Landing<R>) {
+    if landing.stuck {
+        cut(world, sample, branch);
+    } else {
+        sample.radiance = sample.radiance + branch.weight * background(world, branch.direction);
+        sample.primitive_hash = mix_hash(sample.primitive_hash, branch.kind);
+        sample.body_hash = mix_hash(sample.body_hash, branch.kind);
+    }
+}
+
+/// Add a surface's local light, and make its children: the one to go on with is returned, the other waits on the stack.
+pub fn shade<R: Real>(
+    world: &World,
+    sample: &mut Sample<R>,
+    stack: &mut Vec<Branch<R>>,
+    branch: &Branch<R>,
+    landing: &Landing<R>,
+) -> Option<Branch<R>> {
+    let surface = &landing.surface;
+    let before = current_medium(world, landing.media);
+    let behind = current_medium(world, landing.media_behind);
+    let weight = branch.weight * attenuation(world, before, landing.distance);
+    // Local light.
+    let local = direct(world, surface, branch.direction, landing.media);
+    sample.radiance = sample.radiance + weight * local.radiance;
+    sample.rays += local.shadow_rays;
+    sample.rays_by_kind[RAY_SHADOW as usize] += local.shadow_rays;
+    note_path(sample, branch.kind, surface, local.seen);
+    if branch.depth == 0 {
+        sample.aov = Aov {
+            normal: film::flush3(surface.normal),
+            depth: film::flush(landing.distance),
+            body: surface.body,
+            medium: behind,
+            reserved: [0; 2],
+        };
+    }
+    // Children.
+    let scattered = scatter(world, surface, branch.direction, before, behind);
+    let reflection = Branch {
+        origin: spawn_before(surface),
+        media: landing.media,
+        direction: scattered.reflected,
+        depth: branch.depth + 1,
+        weight: weight * scattered.reflection,
+        kind: RAY_REFLECTION,
+    };
+    let refraction = Branch {
+        origin: spawn_behind(surface),
+        media: landing.media_behind,
+        direction: scattered.refracted,
+        depth: branch.depth + 1,
+        weight: weight * scattered.transmission,
+        kind: RAY_REFRACTION,
+    };
+    let reflects = scattered.reflects && keep_or_cut(world, sample, &reflection);
+    let refracts = scattered.transmits && keep_or_cut(world, sample, &refraction);
+    if refracts && reflects {
+        stack.push(reflection);
+    }
+    if refracts {
+        Some(refraction)
+    } else if reflects {
+        Some(reflection)
+    } else {
+        None
+    }
+}
+
+/// Enter a surface into both path hashes.
+pub fn note_path<R: Real>(sample: &mut Sample<R>, kind: u32, surface: &Surface<R>, seen: u32) {
+    let side = if surface.front { 4 } else { 8 };
+    sample.primitive_hash = mix_hash(mix_hash(mix_hash(sample.primitive_hash, surface.id), kind), seen);
+    sample.body_hash = mix_hash(mix_hash(mix_hash(sample.body_hash, surface.body), kind + side), seen);
+}
+
+/// Whether a child is to be traced; if not, it is cut.
+pub fn keep_or_cut<R: Real>(world: &World, sample: &mut Sample<R>, child: &Branch<R>) -> bool {
+    if child.depth <= world.view.depth && max3(child.weight) >= R::real(world.view.cutoff) {
+        return true;
+    }
+    cut(world, sample, child);
+    false
+}
+
+/// A cut ray takes the background's radiance in its direction, and is accounted for.
+pub fn cut<R: Real>(world: &World, sample: &mut Sample<R>, branch: &Branch<R>) {
+    let weight = max3(branch.weight);
+    sample.radiance = sample.radiance + branch.weight * background(world, branch.direction);
+    sample.dropped = sample.dropped + weight;
+    // The true tree goes down to MAX_DEPTH, that is MAX_DEPTH + 1 − depth levels from here.
+    if branch.depth <= MAX_DEPTH {
+        let levels = MAX_DEPTH + 1 - branch.depth;
+        let row = world.view.radiance_bound[(levels >> 2) as usize];
+        sample.bound = sample.bound + weight * R::real(row[(levels & 3) as usize]);
+    }
+}

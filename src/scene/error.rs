@@ -1,0 +1,75 @@
+//! Why a scene cannot be loaded.
+
+use std::fmt;
+
+use super::Diagnostic;
+
+/// Why a scene cannot be loaded: one or more faults in the user's files, in the order they were found.
+///
+/// Displays every fault as [`Diagnostic::render`] does, without colour.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub struct SceneError {
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl SceneError {
+    /// The faults, at least one.
+    #[must_use]
+    pub fn diagnostics(&self) -> &[Diagnostic] {
+        &self.diagnostics
+    }
+}
+
+impl From<Diagnostic> for SceneError {
+    fn from(diagnostic: Diagnostic) -> Self {
+        Self { diagnostics: vec![diagnostic] }
+    }
+}
+
+impl fmt::Display for SceneError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (index, diagnostic) in self.diagnostics.iter().enumerate() {
+            let gap = if index == 0 { "" } else { "\n\n" };
+            write!(f, "{gap}{}", diagnostic.render(false))?;
+        }
+        Ok(())
+    }
+}
+
+/// Gathers the faults of things that are read one by one, so that a person sees them all at once.
+#[derive(Debug, Default)]
+pub(super) struct Faults {
+    found: Vec<Diagnostic>,
+}
+
+impl Faults {
+    /// Keep a value, or note why there is none.
+    pub(super) fn keep<T>(&mut self, result: Result<T, SceneError>) -> Option<T> {
+        result.map_err(|error| self.found.extend(error.diagnostics)).ok()
+    }
+
+    /// Fail with everything noted.
+    pub(super) fn into_result(self) -> Result<(), SceneError> {
+        if self.found.is_empty() { Ok(()) } else { Err(SceneError { diagnostics: self.found }) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn gathered_faults_are_all_displayed() {
+        let mut faults = Faults::default();
+        assert_eq!(faults.keep(Ok(1)), Some(1));
+        assert_eq!(faults.keep::<u8>(Err(Diagnostic::error("first").into())), None);
+        assert_eq!(faults.keep::<u8>(Err(Diagnostic::error("second").into())), None);
+        let error = faults.into_result().map_err(|error| error.to_string());
+        assert_eq!(error, Err("error: first\n\nerror: second".into()));
+    }
+
+    #[test]
+    fn no_fault_is_no_error() {
+        assert_eq!(Faults::default().into_result(), Ok(()));
+    }
+}

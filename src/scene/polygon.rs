@@ -1,0 +1,239 @@
+//! Cutting a face of any shape into triangles.
+//!
+//! Ear clipping (Meisters 1975, "Polygons have ears"; Eberly, "Triangulation by Ear Clipping") in the plane
+//! of Newell's normal. Every corner stays a corner, collinear ones too, so that n corners always give n − 2
+//! triangles whose outer edges are the face's edges: no T-junction arises between neighbouring faces.
+
+use glam::{DVec2, DVec3};
+
+/// Cut a polygon of n ≥ 3 corners into n − 2 triangles of the same orientation, which index the corners.
+///
+/// A convex polygon becomes the fan of its first corner. Where the polygon crosses itself or has no area
+/// there is no right answer; the result still has n − 2 triangles and the same outer edges.
+/// Time is O(n²) at worst.
+pub(super) fn triangulate(corners: &[DVec3]) -> Vec<[usize; 3]> {
+    let mut ring = Ring::new(project(corners));
+    let mut triangles = Vec::with_capacity(corners.len().saturating_sub(2));
+    let mut corner = 1;
+    let mut tried = 0;
+    while ring.left > 3 {
+        // Where no ear is left, which happens to faces that cross themselves only, any corner will do.
+        if ring.is_ear(corner) || tried > ring.left {
+            triangles.push([ring.previous[corner], corner, ring.next[corner]]);
+            corner = ring.clip(corner);
+            tried = 0;
+        } else {
+            corner = ring.next[corner];
+            tried += 1;
+        }
+    }
+    if corners.len() >= 3 {
+        triangles.push(ring.last_triangle(corner));
+    }
+    triangles
+}
+
+/// Newell's normal (Sutherland, Sproull, Schumacker 1974): its length is twice the area.
+fn newell_normal(corners: &[DVec3]) -> DVec3 {
+    let origin = corners.first().copied().unwrap_or_default();
+    let following = corners.iter().cycle().skip(1);
+    corners.iter().zip(following).map(|(&a, &b)| (a - origin).cross(b - origin)).sum()
+}
+
+/// Drop the axis along which the polygon's normal is longest; a positive orientation stays positive.
+fn project(corners: &[DVec3]) -> Vec<DVec2> {
+    let normal = newell_normal(corners);
+    let size = normal.abs();
+    let flip = |along: f64, a: f64, b: f64| if along < 0.0 { DVec2::new(b, a) } else { DVec2::new(a, b) };
+    corners
+        .iter()
+        .map(|p| {
+            if size.x >= size.y && size.x >= size.z {
+                flip(normal.x, p.y, p.z)
+            } else if size.y >= size.z {
+                flip(normal.y, p.z, p.x)
+            } else {
+                flip(normal.z, p.x, p.y)
+            }
+        })
+        .collect()
+}
+
+/// Twice the signed area of a triangle, positive where it runs counter-clockwise.
+fn area2(a: DVec2, b: DVec2, c: DVec2) -> f64 {
+    (b - a).perp_dot(c - a)
+}
+
+/// The corners that are not yet cut off, linked into a ring.
+struct Ring {
+    points: Vec<DVec2>,
+    next: Vec<usize>,
+    previous: Vec<usize>,
+    is_cut: Vec<bool>,
+    /// For each corner, the first point that is not yet known to lie outside the corner's triangle.
+    /// Points never move, so it only goes back when the corner gets a new neighbour: this makes O(n²).
+    untested: Vec<usize>,
+    left: usize,
+}
+
+impl Ring {
+    fn new(points: Vec<DVec2>) -> Self {
+        let count = points.len();
+        Self {
+            next: (0..count).map(|corner| (corner + 1) % count).collect(),
+            previous: (0..count).map(|corner| (corner + count - 1) % count).collect(),
+            is_cut: vec![false; count],
+            untested: vec![0; count],
+            left: count,
+            points,
+        }
+    }
+
+    /// Whether a corner is convex and no other point lies in its triangle.
+    fn is_ear(&mut self, corner: usize) -> bool {
+        let [a, b, c] = [self.previous[corner], corner, self.next[corner]].map(|index| self.points[index]);
+        if area2(a, b, c) <= 0.0 {
+            return false;
+        }
+        let blocks = |point: usize| {
+            let p = self.points[point];
+            // A point at a corner's own place (a doubled corner of a bridge to a hole) does not block.
+            !self.is_cut[point]
+                && ![a, b, c].contains(&p)
+                && area2(a, b, p) >= 0.0
+                && area2(b, c, p) >= 0.0
+                && area2(c, a, p) >= 0.0
+        };
+        let blocker = (self.untested[corner]..self.points.len()).find(|&point| blocks(point));
+        self.untested[corner] = blocker.unwrap_or(self.points.len());
+        blocker.is_none()
+    }
+
+    /// Take a corner out; returns the one after it.
+    fn clip(&mut self, corner: usize) -> usize {
+        let (before, after) = (self.previous[corner], self.next[corner]);
+        self.next[before] = after;
+        self.previous[after] = before;
+        self.untested[before] = 0;
+        self.untested[after] = 0;
+        self.is_cut[corner] = true;
+        self.left -= 1;
+        after
+    }
+
+    /// The three corners that are left, from the lowest on.
+    fn last_triangle(&self, corner: usize) -> [usize; 3] {
+        let corners = [self.previous[corner], corner, self.next[corner]];
+        let lowest = corners.into_iter().min().unwrap_or(corner);
+        [lowest, self.next[lowest], self.previous[lowest]]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn flat(points: &[[f64; 2]]) -> Vec<DVec3> {
+        points.iter().map(|&[x, y]| DVec3::new(x, y, 0.0)).collect()
+    }
+
+    /// Areas add up and none is negative; each edge of the polygon occurs once, each diagonal both ways.
+    fn check(corners: &[DVec3]) -> Vec<[usize; 3]> {
+        let triangles = triangulate(corners);
+        let normal = newell_normal(corners);
+        assert_eq!(triangles.len(), corners.len() - 2);
+        let area = |[a, b, c]: [usize; 3]| {
+            (corners[b] - corners[a]).cross(corners[c] - corners[a]).dot(normal.normalize())
+        };
+        let total: f64 = triangles.iter().map(|&triangle| area(triangle)).sum();
+        assert!(triangles.iter().all(|&triangle| area(triangle) >= -1e-12 * total), "{triangles:?}");
+        assert!((total - normal.length()).abs() <= 1e-9 * total);
+        let mut edges: Vec<_> = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
+        edges.sort_unstable();
+        let count = edges.len();
+        edges.dedup();
+        assert_eq!(edges.len(), count, "an edge occurs twice in one direction");
+        for &[a, b] in &edges {
+            let is_outer = (a + 1) % corners.len() == b;
+            assert_ne!(edges.binary_search(&[b, a]).is_ok(), is_outer, "edge {a} {b}");
+        }
+        triangles
+    }
+
+    #[test]
+    fn a_convex_face_becomes_the_fan_of_its_first_corner() {
+        let hexagon: Vec<_> = (0..6)
+            .map(|i| f64::from(i).to_radians() * 60.0)
+            .map(|a| DVec3::new(a.cos(), 0.0, a.sin()))
+            .collect();
+        assert_eq!(check(&hexagon), [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]]);
+    }
+
+    #[test]
+    fn concave_faces_are_cut_inside() {
+        check(&flat(&[[0., 0.], [4., 0.], [4., 4.], [2., 1.], [0., 4.]]));
+        check(&flat(&[[0., 0.], [2., 1.], [4., 0.], [2., 8.]]));
+    }
+
+    #[test]
+    fn orientation_is_kept_in_every_plane() {
+        let arrow = [[0., 0.], [2., 1.], [4., 0.], [2., 8.]];
+        for axes in [[0, 1, 2], [1, 2, 0], [2, 0, 1], [1, 0, 2], [0, 2, 1], [2, 1, 0]] {
+            let corners: Vec<_> = arrow
+                .iter()
+                .map(|&[x, y]| {
+                    let p = [x, y, 0.5 * x + 0.1 * y + 7.0];
+                    DVec3::from_array(axes.map(|axis| p[axis]))
+                })
+                .collect();
+            check(&corners);
+            check(&corners.iter().rev().copied().collect::<Vec<_>>());
+        }
+    }
+
+    #[test]
+    fn collinear_corners_stay_corners() {
+        check(&flat(&[[0., 0.], [1., 0.], [2., 0.], [2., 2.], [1., 2.], [0., 2.], [0., 1.]]));
+        check(&flat(&[[0., 0.], [1., 0.], [2., 0.], [1., 1.]]));
+    }
+
+    #[test]
+    fn a_hole_joined_by_a_bridge_is_cut_around() {
+        check(&flat(&[
+            [0., 0.],
+            [6., 0.],
+            [6., 6.],
+            [0., 6.],
+            [0., 0.], // outside, and back to its first corner
+            [2., 2.],
+            [2., 4.],
+            [4., 4.],
+            [4., 2.],
+            [2., 2.], // the hole, clockwise
+        ]));
+    }
+
+    #[test]
+    fn a_comb_and_a_spiral_are_cut() {
+        let mut comb = vec![[0., -1.], [20., -1.]];
+        comb.extend((0..=20).rev().map(|i| [f64::from(i), if i % 2 == 0 { 5.0 } else { 0.0 }]));
+        check(&flat(&comb));
+        let turn = |i: i32, inset: f64| {
+            let angle = f64::from(i) * 0.3;
+            [(angle + 1.0 - inset) * angle.cos(), (angle + 1.0 - inset) * angle.sin()]
+        };
+        let spiral: Vec<_> =
+            (0..80).map(|i| turn(i, 0.0)).chain((0..80).rev().map(|i| turn(i, 0.5))).collect();
+        check(&flat(&spiral));
+    }
+
+    #[test]
+    fn faces_without_an_answer_still_give_their_triangles() {
+        let bow_tie = flat(&[[0., 0.], [1., 1.], [1., 0.], [0., 1.]]);
+        assert_eq!(triangulate(&bow_tie).len(), 2);
+        assert_eq!(triangulate(&flat(&[[0., 0.]; 7])).len(), 5);
+        assert_eq!(triangulate(&flat(&[[0., 0.], [1., 1.], [2., 2.], [3., 3.]])).len(), 2);
+        assert!(triangulate(&flat(&[[0., 0.], [1., 1.]])).is_empty());
+        assert!(triangulate(&[]).is_empty());
+    }
+}

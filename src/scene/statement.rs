@@ -1,0 +1,150 @@
+//! The statements of an OBJ or MTL file: lines of words, with comments and continued lines.
+
+use super::source::{LineStart, Source};
+use super::{Diagnostic, Location, SceneError, number};
+
+/// A statement: a keyword and what follows it. Its parts are slices of the source's text.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Statement<'a> {
+    /// The first word.
+    pub(super) keyword: &'a str,
+    /// What follows, trimmed. A continued line still has its backslash and line break here.
+    pub(super) rest: &'a str,
+    source: &'a Source,
+    line: LineStart,
+}
+
+impl<'a> Statement<'a> {
+    /// The words after the keyword.
+    pub(super) fn words(&self) -> impl Iterator<Item = &'a str> + use<'a> {
+        self.rest.split(|c: char| c.is_ascii_whitespace() || c == '\\').filter(|word| !word.is_empty())
+    }
+
+    /// The place of a part of this statement.
+    pub(super) fn locate(&self, part: &str) -> Location {
+        let start = (part.as_ptr() as usize).saturating_sub(self.source.text.as_ptr() as usize);
+        self.source.locate_after(self.line, start..start + part.len())
+    }
+
+    /// A fault in a part of this statement.
+    pub(super) fn fault(&self, part: &str, message: impl Into<String>) -> Diagnostic {
+        Diagnostic::error(message).at(self.locate(part))
+    }
+
+    /// Read one word as a finite number.
+    pub(super) fn number(&self, word: &str) -> Result<f64, SceneError> {
+        let value: f64 = word.parse().map_err(|_| self.fault(word, format!("`{word}` is not a number")))?;
+        Ok(number::check_finite(value).map_err(|reason| self.fault(word, reason.to_string()))?)
+    }
+
+    /// Read the first `N` words as finite numbers; the others must be numbers too, and are left out.
+    pub(super) fn numbers<const N: usize>(&self) -> Result<[f64; N], SceneError> {
+        let mut numbers = [0.0; N];
+        let mut count = 0;
+        for word in self.words() {
+            let value = self.number(word)?;
+            if let Some(slot) = numbers.get_mut(count) {
+                *slot = value;
+            }
+            count += 1;
+        }
+        if count < N {
+            let message = format!("`{}` needs {N} numbers, found {count}", self.keyword);
+            return Err(self.fault(self.keyword, message).into());
+        }
+        Ok(numbers)
+    }
+}
+
+/// Iterates over the statements of a source.
+#[derive(Debug)]
+pub(super) struct Statements<'a> {
+    source: &'a Source,
+    next: LineStart,
+}
+
+impl<'a> Statements<'a> {
+    pub(super) fn new(source: &'a Source) -> Self {
+        Self { source, next: LineStart::FIRST }
+    }
+
+    /// Cut the next line off, with the lines that continue it.
+    fn next_line(&mut self) -> Option<(LineStart, &'a str)> {
+        let text = &self.source.text;
+        let line = self.next;
+        if line.offset >= text.len() {
+            return None;
+        }
+        loop {
+            let rest = &text[self.next.offset..];
+            let length = rest.find('\n').map_or(rest.len(), |newline| newline + 1);
+            let continued = rest[..length].trim_end_matches(['\r', '\n']).ends_with('\\');
+            self.next = LineStart { number: self.next.number + 1, offset: self.next.offset + length };
+            if !continued || self.next.offset >= text.len() {
+                return Some((line, &text[line.offset..self.next.offset]));
+            }
+        }
+    }
+}
+
+impl<'a> Iterator for Statements<'a> {
+    type Item = Statement<'a>;
+
+    fn next(&mut self) -> Option<Statement<'a>> {
+        loop {
+            let (line, text) = self.next_line()?;
+            let text = text.split('#').next().unwrap_or_default();
+            let text = text.trim_start_matches('\u{feff}').trim_ascii();
+            let Some(keyword) = text.split_ascii_whitespace().next() else { continue };
+            let rest = text[keyword.len()..].trim_ascii();
+            return Some(Statement { keyword, rest, source: self.source, line });
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    fn source(text: &str) -> Source {
+        Source { path: "a.obj".into(), text: text.into() }
+    }
+
+    #[test]
+    fn comments_blank_lines_and_the_byte_order_mark_are_skipped() {
+        let source = source("\u{feff}# a\r\n\r\n  v 1 2 # b\n\tusemtl old glass \n");
+        let found: Vec<_> = Statements::new(&source).map(|s| (s.keyword, s.rest)).collect();
+        assert_eq!(found, [("v", "1 2"), ("usemtl", "old glass")]);
+    }
+
+    #[test]
+    fn a_backslash_continues_a_line() {
+        let source = source("f 1 2 \\\n 3 4\\\r\n5\nv 1");
+        let statements: Vec<_> = Statements::new(&source).collect();
+        assert_eq!(statements[0].words().collect::<Vec<_>>(), ["1", "2", "3", "4", "5"]);
+        let fourth = statements[0].words().nth(3).unwrap();
+        let place = statements[0].locate(fourth);
+        assert_eq!((place.line, place.column), (2, 4));
+        assert_eq!(statements[1].locate(statements[1].rest).line, 4);
+    }
+
+    #[test]
+    fn a_backslash_at_the_very_end_is_harmless() {
+        assert_eq!(Statements::new(&source("f 1 \\")).count(), 1);
+        assert_eq!(Statements::new(&source("f 1 \\\n")).count(), 1);
+    }
+
+    #[test]
+    fn numbers_are_finite_and_enough() {
+        let source = source("v 1 2 3 4\nv 1 x 3\nv 1 2\nv nan 0 0\nv 0 1e39 0");
+        let results: Vec<_> = Statements::new(&source).map(|s| s.numbers::<3>()).collect();
+        assert_eq!(results[0], Ok([1.0, 2.0, 3.0]));
+        let places: Vec<_> = results[1..]
+            .iter()
+            .map(|result| result.clone().unwrap_err().diagnostics()[0].location.clone().unwrap())
+            .map(|place| (place.line, place.column))
+            .collect();
+        assert_eq!(places, [(2, 5), (3, 1), (4, 3), (5, 5)]);
+    }
+}

@@ -1,0 +1,49 @@
+//! Every variant of the shaders assembles and validates, with no device at hand.
+
+use snellius::gpu::{GpuError, SOURCES, Variant, assemble, write_spirv};
+use snellius::layout::{Float, Intersector, Precision};
+
+/// Every variant, with the smallest and the largest stacks.
+pub fn all() -> Vec<Variant> {
+    let mut variants = Vec::new();
+    for precision in [Precision::F32, Precision::F64] {
+        for intersector in [Intersector::Watertight, Intersector::MollerTrumbore] {
+            for aovs in [false, true] {
+                for (stack_size, bvh_stack) in [(1, 1), (64, 63)] {
+                    let float = Float::Strict;
+                    variants.push(Variant { precision, float, intersector, aovs, stack_size, bvh_stack });
+                }
+            }
+        }
+    }
+    variants
+}
+
+#[test]
+fn every_variant_validates_and_is_written_as_spirv() {
+    for variant in all() {
+        let shader = assemble(SOURCES, "render", "render", &variant)
+            .unwrap_or_else(|error| panic!("{variant:?}: {error}"));
+        for float in [Float::Strict, Float::Fast] {
+            let words = write_spirv(&shader, &Variant { float, ..variant });
+            assert!(words.is_ok_and(|words| words.len() > 1000), "{variant:?}");
+        }
+    }
+}
+
+#[test]
+fn a_broken_shader_is_reported_with_its_file_and_line() {
+    let broken: Vec<_> = SOURCES
+        .iter()
+        .map(|&(stem, text)| {
+            (stem, if stem == "camera" { format!("\n\n{text}\nfn ) {{") } else { text.to_owned() })
+        })
+        .collect();
+    let sources: Vec<_> = broken.iter().map(|(stem, text)| (*stem, text.as_str())).collect();
+    let Err(GpuError::Shader { file, line, .. }) = assemble(&sources, "render", "render", &all()[0]) else {
+        panic!("the fault was not reported")
+    };
+    let lines =
+        broken.iter().find(|(stem, _)| *stem == "camera").map(|(_, text)| text.lines().count() as u32);
+    assert_eq!((file.as_str(), Some(line)), ("shaders/camera.wgsl", lines));
+}
