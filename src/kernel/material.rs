@@ -122,3 +122,69 @@ pub fn shadow_transmission<R: Real>(
 pub fn index_of<R: Real>(world: &World, medium: u32) -> R {
     R::real(world.scene.materials[medium as usize].ior)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ICE: f64 = 1.31;
+    const WATER: f64 = 1.333;
+
+    /// Both polarisations by the textbook's formulae (Born and Wolf, section 1.5.2).
+    fn textbook(c: f64, eta: f64) -> f64 {
+        let ct = (1.0 - (1.0 - c * c) / (eta * eta)).sqrt();
+        let rs = (c - eta * ct) / (c + eta * ct);
+        let rp = (eta * c - ct) / (eta * c + ct);
+        0.5 * (rs * rs + rp * rp)
+    }
+
+    #[test]
+    fn normal_incidence_reflects_the_known_fractions() {
+        for (eta, expected) in [(ICE, 0.018_009_4), (WATER, 0.020_373_2), (WATER / ICE, 7.573e-5)] {
+            let r = fresnel(1.0f64, eta).reflectance;
+            assert!((r - expected).abs() < 1e-7, "{eta}: {r}");
+        }
+    }
+
+    #[test]
+    fn fresnel_equals_the_textbook_at_every_angle() {
+        for eta in [ICE, WATER, 1.0 / ICE, WATER / ICE, 2.4] {
+            for i in 1..=1000 {
+                let c = f64::from(i) / 1000.0;
+                if eta * eta < 1.0 - c * c {
+                    assert!(fresnel(c, eta).total && fresnel(c, eta).reflectance == 1.0);
+                } else {
+                    assert!((fresnel(c, eta).reflectance - textbook(c, eta)).abs() < 1e-12, "{eta} {c}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn an_index_match_reflects_exactly_nothing_at_any_angle() {
+        for c in [1.0f32, 1e-3, 1e-7, 0.0] {
+            let f = fresnel(c, 1.0);
+            assert_eq!((f.reflectance, f.bend, f.total), (0.0, 0.0, false));
+        }
+    }
+
+    #[test]
+    fn total_reflection_sets_in_at_the_critical_angles() {
+        for (eta, degrees) in [(1.0 / ICE, 49.761f64), (1.0 / WATER, 48.607), (ICE / WATER, 79.341)] {
+            let total = |angle: f64| fresnel(angle.to_radians().cos(), eta).total;
+            assert!(!total(degrees - 2e-3) && total(degrees + 2e-3), "{eta}");
+        }
+    }
+
+    #[test]
+    fn grazing_light_is_reflected_as_the_expansion_says() {
+        for n in [ICE, WATER] {
+            for c in [1e-3f32, 1e-5, 1e-7] {
+                let r = f64::from(fresnel(c, n as f32).reflectance);
+                let c = f64::from(c);
+                let expansion = 1.0 - 2.0 * c * (1.0 + n * n) / (n * n - 1.0).sqrt();
+                assert!((r - expansion).abs() <= 25.0 * c * c + 5e-7, "{n} {c}: {r}");
+            }
+        }
+    }
+}

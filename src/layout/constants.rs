@@ -52,8 +52,8 @@ shared! {
     MAX_PASSES: u32 = 4096;
     /// Rows of four in [`View::media`](super::View::media).
     MEDIA_ROWS: u32 = MAX_MEDIA.div_ceil(4);
-    /// Rows of four in [`View::radiance_bound`](super::View::radiance_bound): 0 to `MAX_DEPTH` + 1 levels.
-    BOUND_ROWS: u32 = (MAX_DEPTH + 2).div_ceil(4);
+    /// Rows of four in [`View::radiance_bound`](super::View::radiance_bound): 0 to `MAX_DEPTH` levels.
+    BOUND_ROWS: u32 = (MAX_DEPTH + 1).div_ceil(4);
     /// Index of primary rays in counts by kind.
     RAY_PRIMARY: u32 = 0;
     /// Index of reflected rays in counts by kind.

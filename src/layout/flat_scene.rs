@@ -64,6 +64,7 @@ pub struct FlatScene {
     pub zenith: [f32; 3],
     /// The background picture, its rotation about +Y in turns, in [0, 1), and its intensity.
     pub environment: Option<(FlatTexture, f32, f32)>,
-    /// L₀ … L of design section 1: `radiance_bound[k]` bounds what a tree of k further levels returns.
+    /// `MAX_DEPTH` + 1 values: `radiance_bound[k]` bounds what a tree of k levels returns. L₀ is the brightest
+    /// background, Lₖ₊₁ = A + g·Lₖ with the largest local term A and the greatest gain g of a material.
     pub radiance_bound: Vec<f32>,
 }

@@ -57,3 +57,18 @@ pub struct Settings {
     /// Whether to fill [`Aov`](super::Aov)s.
     pub aovs: bool,
 }
+
+impl Default for Settings {
+    /// One strict, watertight f32 sample of a tree of depth 16, cut at a ten-thousandth.
+    fn default() -> Self {
+        Self {
+            depth: 16,
+            cutoff: 1e-4,
+            samples: 1,
+            precision: Precision::default(),
+            float: Float::default(),
+            intersector: Intersector::default(),
+            aovs: false,
+        }
+    }
+}
