@@ -12,21 +12,21 @@ pub(crate) fn products() -> Vec<Product> {
     vec![
         Product::solid(
             "prism/right_angle.obj",
-            "A 90° prism: its legs are 1, its axis stands along z.",
+            "A 90° prism: its legs are 1, its axis is z, its long face is down.",
             right,
         ),
         Product::solid(
             "prism/equilateral.obj",
-            "A 60° prism: its sides are 1, its axis stands along z.",
+            "A 60° prism: its sides are 1, its axis is z, a face is down.",
             equal,
         ),
         Product { path: "textures/chart.png", make: Make::Png(chart) },
     ]
 }
 
-/// The right angle at the origin, legs along +x and +y.
 fn right() -> Mesh {
-    shapes::prism(&[DVec2::ZERO, DVec2::X, DVec2::Y], 1.5)
+    let half = 0.5_f64.sqrt();
+    shapes::prism(&[DVec2::new(-half, 0.0), DVec2::new(half, 0.0), DVec2::new(0.0, half)], 1.5)
 }
 
 fn equal() -> Mesh {
