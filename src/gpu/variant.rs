@@ -44,23 +44,18 @@ impl Variant {
         ]
     }
 
-    /// The WGSL type that the shaders call `real`.
-    #[must_use]
-    pub fn real(&self) -> &'static str {
-        match self.precision {
-            Precision::F32 => "f32",
-            Precision::F64 => "f64",
-        }
-    }
-
     /// The shader module `package::constants`: the shared numbers, and those of this variant.
     #[must_use]
     pub fn constants_module(&self) -> String {
         let mut module = String::new();
         for (name, value) in self.constants() {
-            module += &match value {
-                Shared::U32(value) => format!("const {name}: u32 = {value}u;\n"),
-                Shared::Real(value) => format!("const {name}: {} = {};\n", self.real(), self.literal(value)),
+            module += &match (value, self.precision) {
+                (Shared::U32(value), _) => format!("const {name}: u32 = {value}u;\n"),
+                (Shared::F32(value), _) => single(name, value),
+                // Rounded once, as Rust rounds it.
+                (Shared::Real(value), Precision::F32) => single(name, value as f32),
+                // Abstract, and so read in f64: wesl knows no suffix for it.
+                (Shared::Real(value), Precision::F64) => format!("const {name}: f64 = {value:e};\n"),
             };
         }
         module
@@ -79,14 +74,11 @@ impl Variant {
         ];
         SHARED.iter().map(|&(name, value)| (name, value())).chain(own)
     }
+}
 
-    /// The shortest literal that reads back as the value, rounded once to `real` as Rust rounds it.
-    fn literal(&self, value: f64) -> String {
-        match self.precision {
-            Precision::F32 => format!("{:e}f", value as f32),
-            Precision::F64 => format!("{value:e}lf"),
-        }
-    }
+/// The declaration of an f32, by the shortest literal that reads back as it.
+fn single(name: &str, value: f32) -> String {
+    format!("const {name}: f32 = {value:e}f;\n")
 }
 
 #[cfg(test)]
@@ -101,6 +93,6 @@ mod tests {
         assert!(single.contains("const PI: f32 = 3.1415927e0f;\n"), "{single}");
         assert!(single.contains("const STACK_SIZE: u32 = 16u;\n"), "{single}");
         let double = Variant { precision: Precision::F64, ..PLAIN }.constants_module();
-        assert!(double.contains("const PI: f64 = 3.141592653589793e0lf;\n"), "{double}");
+        assert!(double.contains("const PI: f64 = 3.141592653589793e0;\n"), "{double}");
     }
 }

@@ -36,7 +36,10 @@ impl fmt::Display for SceneError {
     }
 }
 
-/// Gathers the faults of things that are read one by one, so that a person sees them all at once.
+/// How many faults are gathered; of more, the first are enough to begin with.
+const MAX_FAULTS: usize = 20;
+
+/// Gathers the faults of things that are read one by one, so that a person sees them together, each once.
 #[derive(Debug, Default)]
 pub(super) struct Faults {
     found: Vec<Diagnostic>,
@@ -45,7 +48,13 @@ pub(super) struct Faults {
 impl Faults {
     /// Keep a value, or note why there is none.
     pub(super) fn keep<T>(&mut self, result: Result<T, SceneError>) -> Option<T> {
-        result.map_err(|error| self.found.extend(error.diagnostics)).ok()
+        result.map_err(|error| error.diagnostics.into_iter().for_each(|fault| self.note(fault))).ok()
+    }
+
+    fn note(&mut self, fault: Diagnostic) {
+        if self.found.len() < MAX_FAULTS && !self.found.contains(&fault) {
+            self.found.push(fault);
+        }
     }
 
     /// Fail with everything noted.
@@ -55,6 +64,7 @@ impl Faults {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
 
@@ -66,6 +76,17 @@ mod tests {
         assert_eq!(faults.keep::<u8>(Err(Diagnostic::error("second").into())), None);
         let error = faults.into_result().map_err(|error| error.to_string());
         assert_eq!(error, Err("error: first\n\nerror: second".into()));
+    }
+
+    #[test]
+    fn a_fault_met_twice_is_told_once_and_a_flood_is_cut() {
+        let mut faults = Faults::default();
+        for number in 0..100 {
+            faults.keep::<u8>(Err(Diagnostic::error(format!("fault {}", number / 2)).into()));
+        }
+        let error = faults.into_result().unwrap_err();
+        assert_eq!(error.diagnostics().len(), MAX_FAULTS);
+        assert_eq!(error.diagnostics()[1].message, "fault 1");
     }
 
     #[test]

@@ -66,10 +66,12 @@ pub(super) fn suggest(name: &str, known: &[&str]) -> String {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
+    use std::path::Path;
+
     use super::*;
 
     fn fault(text: &str) -> (String, usize, usize, String) {
-        let source = Source { path: "a.toml".into(), text: text.into() };
+        let source = Source::new(Path::new("a.toml"), text.into());
         let error = parse(&source).unwrap_err();
         let diagnostic = &error.diagnostics()[0];
         let place = diagnostic.location.clone().unwrap();

@@ -9,19 +9,27 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec2, DVec3};
 
+mod camera;
 mod color;
+mod default_view;
 mod diagnostic;
 mod document;
 mod error;
 mod fault;
 mod illumination;
+mod load;
+mod material;
+mod model;
 mod mtl;
 mod normals;
 mod number;
 mod obj;
 mod polygon;
+mod shapes;
 mod source;
 mod statement;
+mod surroundings;
+mod texture;
 mod triple;
 
 pub use diagnostic::{Diagnostic, Location, Severity};

@@ -142,10 +142,12 @@ fn texture(statement: &Statement<'_>) -> Result<Reference, SceneError> {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
+    use std::path::Path;
+
     use super::*;
 
     fn read(text: &str) -> Result<Vec<Mtl>, SceneError> {
-        parse(&Source { path: "a.mtl".into(), text: text.into() })
+        parse(&Source::new(Path::new("a.mtl"), text.into()))
     }
 
     #[test]

@@ -261,10 +261,12 @@ fn resolve(statement: &Statement<'_>, part: &str, count: usize, what: &str) -> R
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
+    use std::path::Path;
+
     use super::*;
 
     fn source(text: &str) -> Source {
-        Source { path: "a.obj".into(), text: text.into() }
+        Source::new(Path::new("a.obj"), text.into())
     }
 
     const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";

@@ -1,5 +1,6 @@
 //! A text file in memory, which turns byte ranges into places for messages.
 
+use std::cell::OnceCell;
 use std::fs::{self, File};
 use std::io::Read;
 use std::ops::Range;
@@ -7,8 +8,10 @@ use std::path::{Path, PathBuf};
 
 use super::{Diagnostic, Location};
 
-/// The longest text file that is read, in bytes: offsets and indices in it fit 32 bits.
-const MAX_BYTES: u64 = 1 << 31;
+/// The longest scene file that is read, in bytes.
+const MAX_SCENE_BYTES: u64 = 1 << 24;
+/// The longest mesh or material file that is read, in bytes: offsets and indices in it fit 32 bits.
+const MAX_MESH_BYTES: u64 = 1 << 31;
 /// The longest beginning of a line that a message shows, in characters.
 const MAX_SHOWN: usize = 2000;
 
@@ -19,82 +22,74 @@ pub(super) struct Source {
     pub(super) path: PathBuf,
     /// Its text.
     pub(super) text: String,
+    /// Byte offset of the start of every line; found when the first place is asked for.
+    lines: OnceCell<Vec<u32>>,
 }
 
 impl Source {
-    /// Read a UTF-8 file.
+    /// A text that is already in memory, of less than 4 GiB.
+    pub(super) fn new(path: &Path, text: String) -> Self {
+        Self { path: path.into(), text, lines: OnceCell::new() }
+    }
+
+    /// Read a scene file: UTF-8.
     pub(super) fn read(path: &Path) -> Result<Self, Diagnostic> {
-        let bytes = read_bytes(path)?;
-        String::from_utf8(bytes).map(|text| Self { path: path.into(), text }).map_err(|error| {
+        let bytes = read_bytes(path, MAX_SCENE_BYTES)?;
+        String::from_utf8(bytes).map(|text| Self::new(path, text)).map_err(|error| {
             let start = error.utf8_error().valid_up_to();
-            let text = String::from_utf8_lossy(error.as_bytes()).into_owned();
-            let source = Self { path: path.into(), text };
-            let place = source.locate(start..start + 1);
-            Diagnostic::error("the file is not UTF-8 text").at(place)
+            let source = Self::new(path, String::from_utf8_lossy(error.as_bytes()).into_owned());
+            Diagnostic::error("the file is not UTF-8 text").at(source.locate(start..start + 1))
         })
     }
 
-    /// Read a file in any superset of ASCII; other bytes stand in names and comments only.
+    /// Read a mesh or material file, in any superset of ASCII: other bytes stand in names and comments only.
     pub(super) fn read_lossy(path: &Path) -> Result<Self, Diagnostic> {
-        let bytes = read_bytes(path)?;
+        let bytes = read_bytes(path, MAX_MESH_BYTES)?;
         let text = String::from_utf8(bytes)
             .unwrap_or_else(|error| String::from_utf8_lossy(error.as_bytes()).into_owned());
-        Ok(Self { path: path.into(), text })
+        Ok(Self::new(path, text))
     }
 
     /// The place of a byte range: of its part in the first line.
     pub(super) fn locate(&self, span: Range<usize>) -> Location {
-        self.locate_after(LineStart::FIRST, span)
-    }
-
-    /// The place of a byte range at or after the start of a line, in time that does not depend on what
-    /// comes before.
-    pub(super) fn locate_after(&self, known: LineStart, span: Range<usize>) -> Location {
-        let start = floor_char(&self.text, span.start);
-        let before = &self.text[known.offset.min(start)..start];
-        let line_start = before.rfind('\n').map_or(start - before.len(), |at| start - before.len() + at + 1);
+        let start = self.text.floor_char_boundary(span.start);
+        let lines = self.lines.get_or_init(|| line_starts(&self.text));
+        let number = lines.partition_point(|&line| line as usize <= start).max(1);
+        let line_start = lines[number - 1] as usize;
         let line = self.text[line_start..].lines().next().unwrap_or_default();
-        let end = floor_char(&self.text, span.end).clamp(start, (line_start + line.len()).max(start));
+        let line_end = (line_start + line.len()).max(start);
+        let end = self.text.floor_char_boundary(span.end).clamp(start, line_end);
         Location {
             file: self.path.clone(),
-            line: known.number + before.matches('\n').count(),
+            line: number,
             column: self.text[line_start..start].chars().count() + 1,
             length: self.text[start..end].chars().count().max(1),
             text: line.chars().take(MAX_SHOWN).collect(),
         }
     }
+
+    /// The place of a slice of this text.
+    pub(super) fn locate_str(&self, part: &str) -> Location {
+        let start = (part.as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize);
+        self.locate(start..start + part.len())
+    }
 }
 
-/// Where a line begins.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct LineStart {
-    /// The line's number, from 1.
-    pub(super) number: usize,
-    /// Byte offset of its first character.
-    pub(super) offset: usize,
-}
-
-impl LineStart {
-    /// The first line of any text.
-    pub(super) const FIRST: Self = Self { number: 1, offset: 0 };
-}
-
-/// The last character boundary at or before a byte offset.
-fn floor_char(text: &str, offset: usize) -> usize {
-    let offset = offset.min(text.len());
-    (0..=offset).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0)
+/// Byte offset of the start of every line, at least of one.
+fn line_starts(text: &str) -> Vec<u32> {
+    std::iter::once(0).chain(text.match_indices('\n').map(|(newline, _)| newline as u32 + 1)).collect()
 }
 
 /// Read a regular file of bearable size.
-fn read_bytes(path: &Path) -> Result<Vec<u8>, Diagnostic> {
+fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, Diagnostic> {
     check_regular(path)?;
     let cannot_read =
         |error: std::io::Error| Diagnostic::error(format!("cannot read {}: {error}", path.display()));
     let mut bytes = Vec::new();
     let file = File::open(path).map_err(cannot_read)?;
-    file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(cannot_read)?;
-    if bytes.len() as u64 > MAX_BYTES {
-        let message = format!("{} is larger than {} MiB", path.display(), MAX_BYTES >> 20);
+    file.take(most + 1).read_to_end(&mut bytes).map_err(cannot_read)?;
+    if bytes.len() as u64 > most {
+        let message = format!("{} is larger than {} MiB", path.display(), most >> 20);
         return Err(Diagnostic::error(message));
     }
     Ok(bytes)
@@ -118,7 +113,7 @@ mod tests {
     use super::*;
 
     fn source(text: &str) -> Source {
-        Source { path: "a.toml".into(), text: text.into() }
+        Source::new(Path::new("a.toml"), text.into())
     }
 
     #[test]
@@ -139,11 +134,9 @@ mod tests {
     }
 
     #[test]
-    fn a_known_line_gives_the_same_place() {
-        let source = source("one\ntwo\nthree four\n");
-        let known = LineStart { number: 2, offset: 4 };
-        assert_eq!(source.locate_after(known, 14..18), source.locate(14..18));
-        assert_eq!(source.locate_after(known, 4..5), source.locate(4..5));
+    fn a_slice_is_found_by_its_address() {
+        let source = source("one\ntwo one\n");
+        assert_eq!(source.locate_str(&source.text[8..11]), source.locate(8..11));
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The statements of an OBJ or MTL file: lines of words, with comments and continued lines.
 
-use super::source::{LineStart, Source};
+use super::source::Source;
 use super::{Diagnostic, Location, SceneError, number};
 
 /// A statement: a keyword and what follows it. Its parts are slices of the source's text.
@@ -11,7 +11,6 @@ pub(super) struct Statement<'a> {
     /// What follows, trimmed. A continued line still has its backslash and line break here.
     pub(super) rest: &'a str,
     source: &'a Source,
-    line: LineStart,
 }
 
 impl<'a> Statement<'a> {
@@ -22,8 +21,7 @@ impl<'a> Statement<'a> {
 
     /// The place of a part of this statement.
     pub(super) fn locate(&self, part: &str) -> Location {
-        let start = (part.as_ptr() as usize).saturating_sub(self.source.text.as_ptr() as usize);
-        self.source.locate_after(self.line, start..start + part.len())
+        self.source.locate_str(part)
     }
 
     /// A fault in a part of this statement.
@@ -60,30 +58,23 @@ impl<'a> Statement<'a> {
 #[derive(Debug)]
 pub(super) struct Statements<'a> {
     source: &'a Source,
-    next: LineStart,
+    rest: &'a str,
 }
 
 impl<'a> Statements<'a> {
     pub(super) fn new(source: &'a Source) -> Self {
-        Self { source, next: LineStart::FIRST }
+        Self { source, rest: source.text.trim_start_matches('\u{feff}') }
     }
 
     /// Cut the next line off, with the lines that continue it.
-    fn next_line(&mut self) -> Option<(LineStart, &'a str)> {
-        let text = &self.source.text;
-        let line = self.next;
-        if line.offset >= text.len() {
-            return None;
-        }
-        loop {
-            let rest = &text[self.next.offset..];
-            let length = rest.find('\n').map_or(rest.len(), |newline| newline + 1);
-            let continued = rest[..length].trim_end_matches(['\r', '\n']).ends_with('\\');
-            self.next = LineStart { number: self.next.number + 1, offset: self.next.offset + length };
-            if !continued || self.next.offset >= text.len() {
-                return Some((line, &text[line.offset..self.next.offset]));
-            }
-        }
+    fn next_line(&mut self) -> Option<&'a str> {
+        let ends = self.rest.match_indices('\n').map(|(newline, _)| newline + 1);
+        let mut ends = ends.chain(std::iter::once(self.rest.len()));
+        let is_whole = |end: &usize| !self.rest[..*end].trim_end_matches(['\r', '\n']).ends_with('\\');
+        let end = ends.find(is_whole).unwrap_or(self.rest.len());
+        let (line, rest) = self.rest.split_at(end);
+        self.rest = rest;
+        (!line.is_empty()).then_some(line)
     }
 }
 
@@ -92,12 +83,15 @@ impl<'a> Iterator for Statements<'a> {
 
     fn next(&mut self) -> Option<Statement<'a>> {
         loop {
-            let (line, text) = self.next_line()?;
-            let text = text.split('#').next().unwrap_or_default();
-            let text = text.trim_start_matches('\u{feff}').trim_ascii();
-            let Some(keyword) = text.split_ascii_whitespace().next() else { continue };
-            let rest = text[keyword.len()..].trim_ascii();
-            return Some(Statement { keyword, rest, source: self.source, line });
+            let line = self.next_line()?;
+            let text = line.split('#').next().unwrap_or_default().trim_ascii();
+            if let Some(keyword) = text.split_ascii_whitespace().next() {
+                return Some(Statement {
+                    keyword,
+                    rest: text[keyword.len()..].trim_ascii(),
+                    source: self.source,
+                });
+            }
         }
     }
 }
@@ -105,10 +99,12 @@ impl<'a> Iterator for Statements<'a> {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
+    use std::path::Path;
+
     use super::*;
 
     fn source(text: &str) -> Source {
-        Source { path: "a.obj".into(), text: text.into() }
+        Source::new(Path::new("a.obj"), text.into())
     }
 
     #[test]

@@ -15,7 +15,7 @@ const SWIFTSHADER: [&str; 5] = [
 ];
 
 /// Run a test on lavapipe and on SwiftShader.
-pub fn on_each(test: impl Fn(&GpuOptions)) {
+pub(super) fn on_each(test: impl Fn(&GpuOptions)) {
     for part in ["llvmpipe", "swiftshader"] {
         if let Some(options) = find(part) {
             test(&options);
@@ -24,7 +24,7 @@ pub fn on_each(test: impl Fn(&GpuOptions)) {
 }
 
 /// The adapter of that name. Where it is missing the test is skipped with a line, but fails in CI.
-pub fn find(part: &str) -> Option<GpuOptions> {
+pub(super) fn find(part: &str) -> Option<GpuOptions> {
     show_swiftshader();
     if adapters().iter().any(|adapter| adapter.name.to_lowercase().contains(part)) {
         return Some(GpuOptions { adapter: Some(part.to_owned()) });

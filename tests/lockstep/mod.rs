@@ -4,8 +4,11 @@
 //! shaders, and that it finds the fault planted in a copy of them: a guard that cannot fail guards nothing.
 
 mod constants;
+mod decorations;
 mod devices;
 mod layout;
+mod pictures;
+mod planted;
 mod scene;
 mod strict;
 mod twins;

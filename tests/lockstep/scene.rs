@@ -5,7 +5,7 @@ use snellius::layout::constants::NONE;
 use snellius::layout::{Attribute, FlatScene, Light, Material, Node, Triangle, View};
 
 /// A white, matt triangle at z = 0 that covers the lower left half of the picture.
-pub fn triangle() -> FlatScene {
+pub(super) fn triangle() -> FlatScene {
     let (lo, hi) = ([-1.0, -1.0, 0.0], [1.0, 1.0, 0.0]);
     FlatScene {
         nodes: vec![Node {
@@ -55,7 +55,7 @@ pub fn triangle() -> FlatScene {
 }
 
 /// The triangle from the front.
-pub fn view(scene: &FlatScene, width: u32, height: u32, samples: u32) -> View {
+pub(super) fn view(scene: &FlatScene, width: u32, height: u32, samples: u32) -> View {
     View {
         eye: [0.0, 0.0, 2.0],
         width,

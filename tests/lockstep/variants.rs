@@ -4,7 +4,7 @@ use snellius::gpu::{GpuError, SOURCES, Variant, assemble, write_spirv};
 use snellius::layout::{Float, Intersector, Precision};
 
 /// Every variant, with the smallest and the largest stacks.
-pub fn all() -> Vec<Variant> {
+pub(super) fn all() -> Vec<Variant> {
     let mut variants = Vec::new();
     for precision in [Precision::F32, Precision::F64] {
         for intersector in [Intersector::Watertight, Intersector::MollerTrumbore] {
