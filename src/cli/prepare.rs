@@ -26,9 +26,9 @@ impl Prepared {
         let started = Instant::now();
         let scene = Scene::load(path)?;
         let load = started.elapsed();
-        let (flat, found) = flatten(&scene)?;
+        let flattened = flatten(&scene)?;
         let bvh = started.elapsed() - load;
-        let warnings = scene.warnings.iter().cloned().chain(found).collect();
-        Ok(Self { scene, flat, warnings, load, bvh })
+        let warnings = scene.warnings.iter().cloned().chain(flattened.warnings).collect();
+        Ok(Self { scene, flat: flattened.scene, warnings, load, bvh })
     }
 }

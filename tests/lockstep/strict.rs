@@ -19,7 +19,7 @@ const PLAIN: Variant = Variant {
 const SUM_OF_PRODUCTS: &str = "
     struct Range { first: u32, end: u32, stride: u32, reserved: u32 }
     @group(0) @binding(7) var<storage, read_write> records: array<u32>;
-    @group(0) @binding(9) var<uniform> range: Range;
+    @group(0) @binding(9) var<storage, read> range: Range;
 
     @compute @workgroup_size(64)
     fn probe_sum(@builtin(global_invocation_id) id: vec3u) {

@@ -161,15 +161,8 @@ fn buffers(flat: &FlatScene, [width, height]: [u32; 2]) -> Vec<Buffer> {
 
 /// What a render without flags would simulate.
 fn effects(scene: &Scene, flat: &FlatScene) -> Vec<Effect> {
-    let settings = Settings {
-        depth: scene.render.depth,
-        cutoff: scene.render.cutoff as f32,
-        samples: scene.render.samples,
-        precision: layout::Precision::default(),
-        float: layout::Float::default(),
-        intersector: layout::Intersector::default(),
-        aovs: false,
-    };
+    let settings =
+        Settings { depth: scene.render.depth, samples: scene.render.samples, ..Settings::default() };
     Effects::of(flat, &settings)
         .findings()
         .iter()

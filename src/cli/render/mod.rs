@@ -31,7 +31,7 @@ pub(super) fn run(args: RenderArgs, console: Console) -> Result<Outcome, CliErro
     let render = config.overridden(&scene.render);
     let settings = config.settings(&render);
     let crop = config.crop(render.size)?;
-    let view = flatten::view(scene, flat, &scene.camera, render.size, crop, &settings);
+    let view = flatten::view(&scene.camera, flat, render.size, Some(crop), &settings);
     let mut device = config.device.clone().settle(config.precision, console).open(flat)?;
     let frame = {
         let progress = RenderProgress::start(config.progress, console);

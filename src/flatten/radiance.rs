@@ -1,0 +1,66 @@
+//! How bright a ray tree can be: what the certified bound of a cut ray rests on.
+
+use glam::DVec3;
+
+use super::distance::{greatest_lift, least_distance};
+use super::number::{narrow_up, widen3};
+use crate::layout::constants::MAX_DEPTH;
+use crate::layout::{FlatScene, Light, Material};
+
+/// L₀ … L of `MAX_DEPTH` + 1 levels: `L₀` is the brightest background, `Lₖ₊₁ = A + g·Lₖ`, with A the largest
+/// local term and g the largest weight that a surface passes on. Rounded up, and capped at the greatest f32.
+pub(super) fn bounds(scene: &FlatScene) -> Vec<f32> {
+    let (local, passed) = (largest_local_term(scene), largest_weight(scene));
+    let levels = std::iter::successors(Some(brightest_background(scene)), |&radiance| {
+        Some((local + passed * radiance).min(f64::from(f32::MAX)))
+    });
+    levels.take(MAX_DEPTH as usize + 2).map(narrow_up).collect()
+}
+
+/// B: the brightest channel of any direction.
+fn brightest_background(scene: &FlatScene) -> f64 {
+    let Some((picture, _, intensity)) = scene.environment else {
+        return widen3(scene.horizon).max(widen3(scene.zenith)).max_element();
+    };
+    let first = picture.first as usize;
+    let words = &scene.texels[first..first + 3 * picture.width as usize * picture.height as usize];
+    let brightest = words.iter().map(|&word| f32::from_bits(word)).fold(0.0, f32::max);
+    f64::from(brightest) * f64::from(intensity)
+}
+
+/// A: the largest channel of ka·Ia + Σj Ij·(kd + ks) over all materials, every light unshadowed and, where it
+/// falls off, as close as it comes to any surface. Textures multiply by at most 1, and n·l, (s·r)^β are at
+/// most 1.
+fn largest_local_term(scene: &FlatScene) -> f64 {
+    let lift =
+        if scene.lights.iter().any(|light| light.inverse_square != 0) { greatest_lift(scene) } else { 0.0 };
+    let light: DVec3 = scene.lights.iter().map(|light| strongest(scene, light, lift)).sum();
+    let ambient = widen3(scene.ambient);
+    let local = |material: &Material| {
+        let scattered = light * (widen3(material.diffuse) + widen3(material.specular));
+        // A light on a surface is boundless, but gives nothing to a black one: 0·∞ = 0 here.
+        let scattered = DVec3::select(scattered.is_nan_mask(), DVec3::ZERO, scattered);
+        (ambient * widen3(material.ambient) + scattered).max_element()
+    };
+    scene.materials.iter().map(local).fold(0.0, f64::max)
+}
+
+/// The intensity of a light at the nearest surface.
+fn strongest(scene: &FlatScene, light: &Light, lift: f64) -> DVec3 {
+    let intensity = widen3(light.intensity);
+    if light.inverse_square == 0 || intensity == DVec3::ZERO {
+        return intensity;
+    }
+    let distance = least_distance(scene, widen3(light.position), lift);
+    DVec3::select(intensity.cmpgt(DVec3::ZERO), intensity / (distance * distance), DVec3::ZERO)
+}
+
+/// g: the largest channel of kr + kt of a classic material (total internal reflection adds them), or of either
+/// of a Fresnel one (which divides between them). The air is no surface.
+fn largest_weight(scene: &FlatScene) -> f64 {
+    let weight = |material: &Material| {
+        let (kr, kt) = (widen3(material.reflection), widen3(material.transmission));
+        if material.fresnel == 0 { (kr + kt).max_element() } else { kr.max(kt).max_element() }
+    };
+    scene.materials[1..].iter().map(weight).fold(0.0, f64::max)
+}
