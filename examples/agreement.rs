@@ -62,14 +62,14 @@ fn print_head(size: [u32; 2], adapters: &[String]) {
 /// One scene's row.
 fn row(path: &Path, size: [u32; 2], adapters: &[String]) -> Result<String> {
     let scene = Scene::load(path)?;
-    let (flat, _) = flatten::flatten(&scene)?;
+    let flat = flatten::flatten(&scene)?.scene;
     let settings = Settings {
         depth: scene.render.depth,
         cutoff: scene.render.cutoff as f32,
         samples: 1,
         ..Settings::default()
     };
-    let view = flatten::view(&scene, &flat, &scene.camera, size, None, &settings);
+    let view = flatten::view(&scene.camera, &flat, size, None, &settings);
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let single = trace_cpu(&flat, &view, &settings)?;
     let double = trace_cpu(&flat, &view, &Settings { precision: Precision::F64, ..settings })?;

@@ -1,4 +1,4 @@
-// The eight storage buffers and two uniforms. Twin of src/kernel/world.rs.
+// The ten storage buffers. Twin of src/kernel/world.rs.
 
 import package::records::{Node, Triangle, Attribute, Corner, Material, Light, Film, View, Tile};
 
@@ -10,5 +10,5 @@ import package::records::{Node, Triangle, Attribute, Corner, Material, Light, Fi
 @group(0) @binding(5) var<storage, read> lights: array<Light>;
 @group(0) @binding(6) var<storage, read> texels: array<u32>;
 @group(0) @binding(7) var<storage, read_write> film: Film;
-@group(0) @binding(8) var<uniform> view: View;
-@group(0) @binding(9) var<uniform> tile: Tile;
+@group(0) @binding(8) var<storage, read> view: View;
+@group(0) @binding(9) var<storage, read> tile: Tile;

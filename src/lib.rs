@@ -1,6 +1,7 @@
 #![doc = include_str!("ARCHITECTURE.md")]
 
 pub mod bvh;
+pub mod cli;
 pub mod cpu;
 pub mod film;
 pub mod flatten;

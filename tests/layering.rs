@@ -44,16 +44,21 @@ fn violations(module: &str, text: &str) -> Vec<String> {
     let code = text.lines().take_while(|line| !line.starts_with("#[cfg(test)]"));
     let mut found = Vec::new();
     for (number, line) in code.enumerate() {
-        let imported = line.split("crate::").skip(1).map(|rest| {
-            rest.split(|c: char| !(c.is_alphanumeric() || c == '_')).next().unwrap_or_default()
-        });
-        for target in imported.filter(|target| MAY_IMPORT.iter().any(|(name, _)| name == target) || *target == "cli") {
+        let imported = line
+            .split("crate::")
+            .skip(1)
+            .map(|rest| rest.split(|c: char| !(c.is_alphanumeric() || c == '_')).next().unwrap_or_default());
+        for target in
+            imported.filter(|target| MAY_IMPORT.iter().any(|(name, _)| name == target) || *target == "cli")
+        {
             if target != module && !allowed.contains(&target) && !line.trim_start().starts_with("//") {
                 found.push(format!("line {}: {module} imports {target}", number + 1));
             }
         }
         let uses = |name: &str| line.contains(&format!("{name}::")) && !line.trim_start().starts_with("//");
-        found.extend(forbidden.iter().filter(|c| uses(c)).map(|c| format!("line {}: {module} uses {c}", number + 1)));
+        found.extend(
+            forbidden.iter().filter(|c| uses(c)).map(|c| format!("line {}: {module} uses {c}", number + 1)),
+        );
     }
     found
 }

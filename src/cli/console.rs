@@ -1,7 +1,7 @@
 //! What people read: chatter on standard error, reports on standard output.
 
 use std::fmt::Display;
-use std::io::{IsTerminal, stderr};
+use std::io::{IsTerminal, Write, stderr};
 
 use super::CliError;
 use crate::film::Output;
@@ -27,22 +27,17 @@ impl Console {
         !self.quiet && stderr().is_terminal()
     }
 
-    /// Whether only errors are wanted.
-    pub(super) fn is_quiet(self) -> bool {
-        self.quiet
-    }
-
     /// A line that most people want to see.
     pub(super) fn note(self, message: impl Display) {
         if !self.quiet {
-            eprintln!("{message}");
+            say(message);
         }
     }
 
     /// A line for those who asked for more.
     pub(super) fn detail(self, message: impl Display) {
         if self.verbose {
-            eprintln!("{message}");
+            say(message);
         }
     }
 
@@ -64,9 +59,14 @@ impl Console {
     /// An error, once; quiet or not.
     pub(super) fn error(self, error: &CliError) {
         if !error.is_closed_pipe() {
-            eprintln!("{}", error.render(self.color));
+            say(error.render(self.color));
         }
     }
+}
+
+/// A line to standard error. If that is closed nobody can be told, and nothing needs to be.
+fn say(message: impl Display) {
+    let _ = writeln!(stderr(), "{message}");
 }
 
 /// A report to standard output, whole.

@@ -42,6 +42,7 @@ pub(crate) fn test_frame(width: u32, height: u32) -> Frame {
         height,
         texels: vec![crate::layout::Texel::default(); pixels],
         aovs: Some(vec![crate::layout::Aov::default(); pixels]),
+        float: crate::layout::Float::Strict,
         rays: RayCounts::default(),
         times: TraceTimes::default(),
         complete: true,

@@ -111,7 +111,7 @@ fn decades(values: Vec<f32>, unit: &str) -> Preview {
     };
     let legend = if most > 0.0 {
         let least = most / 10_f32.powf(DECADES);
-        format!("{unit} {least:e} or less (dark blue) to {most:e} (yellow), logarithmic; black: 0")
+        format!("{unit} {least:.2e} or less (dark blue) to {most:.2e} (yellow), logarithmic; black: 0")
     } else {
         "black: 0".to_owned()
     };

@@ -6,13 +6,11 @@ use bytemuck::{NoUninit, Zeroable, bytes_of, cast_slice};
 
 use super::GpuError;
 use super::context::Context;
-use super::pipeline::{READ_ONLY, TILE, VIEW, WRITTEN, bind_group_layout};
+use super::pipeline::{SCENE, TILE, VIEW, WRITTEN, bind_group_layout};
 use crate::layout::{FlatScene, View};
 
 /// Storage buffers that the host fills.
 const STORED: wgpu::BufferUsages = wgpu::BufferUsages::STORAGE.union(wgpu::BufferUsages::COPY_DST);
-/// Uniform buffers that the host fills.
-const UNIFORM: wgpu::BufferUsages = wgpu::BufferUsages::UNIFORM.union(wgpu::BufferUsages::COPY_DST);
 /// Bytes of the record at binding [`TILE`]: four words.
 const TILE_SIZE: u64 = 16;
 
@@ -31,7 +29,7 @@ impl SceneBuffers {
     /// # Errors
     /// [`GpuError::TooLarge`] names the array, its size and the limit.
     pub(super) fn new(context: &Context, scene: &FlatScene) -> Result<Self, GpuError> {
-        let arrays: [(_, Cow<'_, [u8]>); READ_ONLY as usize] = [
+        let arrays: [(_, Cow<'_, [u8]>); SCENE as usize] = [
             ("the tree of boxes", bytes(&scene.nodes)),
             ("the triangles", bytes(&scene.triangles)),
             ("the triangles' attributes", bytes(&scene.attributes)),
@@ -51,8 +49,8 @@ impl SceneBuffers {
         Ok(Self {
             layout: bind_group_layout(&context.device),
             arrays: arrays.iter().map(upload).collect::<Result<_, GpuError>>()?,
-            view: context.buffer("the view", size_of::<View>() as u64, UNIFORM)?,
-            tile: context.buffer("the tile", TILE_SIZE, UNIFORM)?,
+            view: context.buffer("the view", size_of::<View>() as u64, STORED)?,
+            tile: context.buffer("the tile", TILE_SIZE, STORED)?,
         })
     }
 
@@ -68,7 +66,7 @@ impl SceneBuffers {
 
     /// The scene with the buffer that the shader writes.
     pub(super) fn bind(&self, context: &Context, written: &wgpu::Buffer) -> wgpu::BindGroup {
-        let arrays = (0..READ_ONLY).zip(&self.arrays);
+        let arrays = (0..SCENE).zip(&self.arrays);
         let others = [(WRITTEN, written), (VIEW, &self.view), (TILE, &self.tile)];
         let entries: Vec<_> = arrays
             .chain(others)

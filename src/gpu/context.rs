@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use super::adapters::{AdapterReport, choose, instance};
+use super::pipeline::STORAGE_BUFFERS;
 use super::{GpuError, GpuOptions};
 
 /// How long one submission may take before the device counts as lost: a thousand times what it is meant to.
@@ -34,15 +35,15 @@ impl Context {
     pub(super) fn new(options: &GpuOptions) -> Result<Self, GpuError> {
         let adapter = choose(&instance(), options.adapter.as_deref())?;
         let report = AdapterReport::new(&adapter);
-        let offered = adapter.features();
+        if report.max_storage_buffers < STORAGE_BUFFERS {
+            let reason = format!("a shader sees {} storage buffers there", report.max_storage_buffers);
+            return Err(report.refused("ten storage buffers", reason));
+        }
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("snellius"),
-            required_features: offered & (wgpu::Features::PASSTHROUGH_SHADERS | wgpu::Features::SHADER_F64),
-            required_limits: wgpu::Limits {
-                max_storage_buffer_binding_size: report.max_storage_binding,
-                max_buffer_size: report.max_buffer,
-                ..wgpu::Limits::default()
-            },
+            required_features: adapter.features()
+                & (wgpu::Features::PASSTHROUGH_SHADERS | wgpu::Features::SHADER_F64),
+            required_limits: limits(&report),
             ..wgpu::DeviceDescriptor::default()
         };
         let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
@@ -159,6 +160,20 @@ impl Context {
         drop(view);
         staging.unmap();
         Ok(taken)
+    }
+}
+
+/// The least that a device must have, with buffers as large as the adapter's.
+fn limits(adapter: &AdapterReport) -> wgpu::Limits {
+    let least = wgpu::Limits::default();
+    let others = least.max_buffers_and_acceleration_structures_per_shader_stage
+        - least.max_storage_buffers_per_shader_stage;
+    wgpu::Limits {
+        max_storage_buffers_per_shader_stage: STORAGE_BUFFERS,
+        max_buffers_and_acceleration_structures_per_shader_stage: others + STORAGE_BUFFERS,
+        max_storage_buffer_binding_size: adapter.max_storage_binding,
+        max_buffer_size: adapter.max_buffer,
+        ..least
     }
 }
 

@@ -6,7 +6,7 @@
 //! ```wgsl
 //! struct Range { first: u32, end: u32, stride: u32, reserved: u32 }
 //! @group(0) @binding(7) var<storage, read_write> records: array<u32>;
-//! @group(0) @binding(9) var<uniform> range: Range;
+//! @group(0) @binding(9) var<storage, read> range: Range;
 //! ```
 //!
 //! Invocation `id.x` owns record `range.first + id.x`, if that is below `range.end`: the `range.stride` words from

@@ -6,7 +6,8 @@ use snellius::layout::{Float, Intersector, Precision};
 use super::devices::on_each;
 use super::scene;
 
-const PLAIN: Variant = Variant {
+/// The variant of the default settings, with small stacks.
+pub(super) const PLAIN: Variant = Variant {
     precision: Precision::F32,
     float: Float::Strict,
     intersector: Intersector::Watertight,
@@ -19,7 +20,7 @@ const PLAIN: Variant = Variant {
 const SUM_OF_PRODUCTS: &str = "
     struct Range { first: u32, end: u32, stride: u32, reserved: u32 }
     @group(0) @binding(7) var<storage, read_write> records: array<u32>;
-    @group(0) @binding(9) var<uniform> range: Range;
+    @group(0) @binding(9) var<storage, read> range: Range;
 
     @compute @workgroup_size(64)
     fn probe_sum(@builtin(global_invocation_id) id: vec3u) {

@@ -78,7 +78,7 @@ pub(super) struct Effect {
 
 impl Report {
     pub(super) fn new(prepared: &Prepared) -> Self {
-        let Prepared { scene, flat, warnings, .. } = prepared;
+        let (scene, flat) = (&prepared.scene, &prepared.flat.scene);
         let media = scene.materials.iter().filter(|material| material.is_transmissive());
         Self {
             scene: scene.source.display().to_string(),
@@ -95,7 +95,7 @@ impl Report {
             buffers: buffers(flat, scene.render.size),
             bvh: Bvh { nodes: flat.nodes.len(), depth: flat.bvh_depth },
             effects: effects(scene, flat),
-            warnings: warnings.iter().map(|warning| warning.render(false)).collect(),
+            warnings: prepared.warnings().map(|warning| warning.render(false)).collect(),
         }
     }
 }
@@ -161,15 +161,8 @@ fn buffers(flat: &FlatScene, [width, height]: [u32; 2]) -> Vec<Buffer> {
 
 /// What a render without flags would simulate.
 fn effects(scene: &Scene, flat: &FlatScene) -> Vec<Effect> {
-    let settings = Settings {
-        depth: scene.render.depth,
-        cutoff: scene.render.cutoff as f32,
-        samples: scene.render.samples,
-        precision: layout::Precision::default(),
-        float: layout::Float::default(),
-        intersector: layout::Intersector::default(),
-        aovs: false,
-    };
+    let settings =
+        Settings { depth: scene.render.depth, samples: scene.render.samples, ..Settings::default() };
     Effects::of(flat, &settings)
         .findings()
         .iter()

@@ -18,6 +18,7 @@ const LINE_INTERVAL: Duration = Duration::from_secs(1);
 /// Shows progress, and stops the render after Ctrl-C.
 pub(super) struct RenderProgress {
     display: Display,
+    console: Console,
     interrupted: Arc<AtomicBool>,
 }
 
@@ -33,12 +34,10 @@ impl RenderProgress {
     pub(super) fn start(style: ProgressStyle, console: Console) -> Self {
         let display = match style {
             ProgressStyle::Auto if console.has_terminal() => Display::Bar(bar()),
-            ProgressStyle::Plain if !console.is_quiet() => {
-                Display::Plain { started: Instant::now(), last: Mutex::default() }
-            }
+            ProgressStyle::Plain => Display::Plain { started: Instant::now(), last: Mutex::default() },
             _ => Display::None,
         };
-        Self { display, interrupted: listen_for_interrupt(console) }
+        Self { display, console, interrupted: listen_for_interrupt(console) }
     }
 }
 
@@ -54,7 +53,7 @@ impl Progress for RenderProgress {
                 let mut last = last.lock().unwrap_or_else(PoisonError::into_inner);
                 if elapsed >= *last + LINE_INTERVAL {
                     *last = elapsed;
-                    eprintln!("{}", plain_line(done, total, elapsed));
+                    self.console.note(plain_line(done, total, elapsed));
                 }
             }
             Display::None => {}
@@ -112,7 +111,11 @@ mod tests {
     use super::*;
 
     fn progress(interrupted: bool) -> RenderProgress {
-        RenderProgress { display: Display::None, interrupted: Arc::new(AtomicBool::new(interrupted)) }
+        RenderProgress {
+            display: Display::None,
+            console: Console::new(true, false),
+            interrupted: Arc::new(AtomicBool::new(interrupted)),
+        }
     }
 
     #[test]
