@@ -71,12 +71,12 @@ fn candidates(faces: &Faces, bodies: &Bodies) -> Vec<Flat> {
         faces.triangles.iter().map(move |t| (body(t.id) as usize, t)).filter(move |&(body, _)| body < count)
     };
     for (body, triangle) in own() {
-        let [lo, hi] = bounds(&corners(triangle));
+        let [lo, hi] = bounds(corners(triangle));
         boxes[body] = [boxes[body][0].min(lo), boxes[body][1].max(hi)];
     }
     own()
         .filter(|&(body, triangle)| {
-            let [lo, hi] = bounds(&corners(triangle));
+            let [lo, hi] = bounds(corners(triangle));
             let meets = |other: &[DVec3; 2]| lo.cmple(other[1]).all() && hi.cmpge(other[0]).all();
             boxes[..count].iter().enumerate().any(|(other, bounds)| other != body && meets(bounds))
         })

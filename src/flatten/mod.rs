@@ -25,6 +25,7 @@ mod merge;
 mod normals;
 mod number;
 mod orient;
+mod pierce;
 mod place;
 mod radiance;
 #[cfg(test)]

@@ -21,7 +21,7 @@ pub(super) fn orient(placed: &mut Placed) -> Result<Vec<Diagnostic>, SceneError>
     let sides = edges::join(&triangles, &placed.positions);
     check_closed(placed, &sides)?;
     let winding = Winding::flood(&triangles, &sides).ok_or_else(|| one_sided(placed.model))?;
-    let shells = find_shells(placed, &winding);
+    let shells = find_shells(placed, &winding).map_err(|error| Diagnostic::error(error.to_string()))?;
     for (triangle, turned) in placed.triangles.iter_mut().zip(&winding.turned) {
         if *turned {
             reverse(triangle);

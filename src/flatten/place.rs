@@ -52,7 +52,7 @@ impl<'a> Placed<'a> {
 
     /// Least and greatest corner of the first copy.
     pub(super) fn bounds(&self) -> [DVec3; 2] {
-        bounds(&self.positions)
+        bounds(self.positions.iter().copied())
     }
 
     /// World positions of a triangle's corners.
@@ -80,13 +80,13 @@ pub(super) fn reverse(triangle: &mut Triangle) {
 }
 
 /// Least and greatest corner; inverted where there are no points.
-pub(super) fn bounds(points: &[DVec3]) -> [DVec3; 2] {
-    points.iter().fold([DVec3::MAX, DVec3::MIN], |[lo, hi], &p| [lo.min(p), hi.max(p)])
+pub(super) fn bounds(points: impl IntoIterator<Item = DVec3>) -> [DVec3; 2] {
+    points.into_iter().fold([DVec3::MAX, DVec3::MIN], |[lo, hi], p| [lo.min(p), hi.max(p)])
 }
 
 fn check_range(model: &Model, positions: &[DVec3]) -> Result<(), SceneError> {
     let last = model.repeat.step * DVec3::from_array(model.repeat.count.map(|count| f64::from(count) - 1.0));
-    let [lo, hi] = bounds(positions);
+    let [lo, hi] = bounds(positions.iter().copied());
     let reach = [lo, hi, lo + last, hi + last].map(|corner| corner.abs().max_element());
     // An empty mesh reaches nowhere; written so that NaN fails.
     if positions.is_empty() || reach.iter().all(|&reach| reach <= MAX_COORDINATE) {

@@ -29,7 +29,7 @@ struct Winding {
     /// The product so far, at a magnitude of about 1.
     re: f64,
     im: f64,
-    /// Half turns' pairs that the product's argument, in (−π, π], does not show.
+    /// Full turns that the product's argument, in (−π, π], does not show.
     turns: f64,
 }
 
@@ -68,13 +68,6 @@ impl Winding {
     }
 }
 
-/// The winding number of a surface around a point; see [`Winding`].
-pub(super) fn winding_number(point: DVec3, faces: impl Iterator<Item = [DVec3; 3]>) -> f64 {
-    let mut winding = Winding::NONE;
-    faces.for_each(|corners| winding.add(point, corners));
-    winding.number()
-}
-
 /// The media mask at a point: the bit of each transmissive body that holds it. A point on a face counts as
 /// outside.
 #[must_use]
@@ -96,7 +89,7 @@ fn boxes(scene: &FlatScene, count: usize) -> [[DVec3; 2]; MAX_MEDIA as usize] {
     const EMPTY: [[DVec3; 2]; MAX_MEDIA as usize] = [[DVec3::MAX, DVec3::MIN]; MAX_MEDIA as usize];
     let grow = |mut boxes: [[DVec3; 2]; MAX_MEDIA as usize], triangle: &Triangle| {
         for (body, _) in walls(scene, triangle).into_iter().flatten().filter(|&(body, _)| body < count) {
-            let [lo, hi] = bounds(&corners(triangle));
+            let [lo, hi] = bounds(corners(triangle));
             boxes[body] = [boxes[body][0].min(lo), boxes[body][1].max(hi)];
         }
         boxes
@@ -142,6 +135,12 @@ fn holds([lo, hi]: [DVec3; 2], point: DVec3) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn winding_number(point: DVec3, faces: impl Iterator<Item = [DVec3; 3]>) -> f64 {
+        let mut winding = Winding::NONE;
+        faces.for_each(|corners| winding.add(point, corners));
+        winding.number()
+    }
 
     #[test]
     fn an_octant_is_an_eighth_of_the_sphere() {
