@@ -8,11 +8,9 @@
 
 use std::time::{Duration, Instant};
 
-use glam::DVec3;
-
 use crate::bvh::{self, Preset, Statistics};
-use crate::layout::{FlatScene, FlatTexture, Light, Node, Triangle};
-use crate::scene::{Background, Diagnostic, Falloff, Model, Scene, SceneError};
+use crate::layout::{FlatScene, Node, Triangle};
+use crate::scene::{Diagnostic, Model, Scene, SceneError};
 
 mod bodies;
 mod copies;
@@ -20,6 +18,7 @@ mod coplanar;
 mod distance;
 mod edges;
 mod faces;
+mod flood;
 mod materials;
 mod merge;
 mod normals;
@@ -31,6 +30,7 @@ mod radiance;
 #[cfg(test)]
 mod samples;
 mod shells;
+mod surroundings;
 mod texels;
 mod view;
 mod winding;
@@ -42,8 +42,9 @@ pub use winding::start_media;
 use bodies::Bodies;
 use faces::Faces;
 use materials::Rows;
-use number::{MAX_COORDINATE, narrow, narrow3};
+use number::narrow3;
 use place::Placed;
+use surroundings::{background, check_range, light};
 use texels::Texels;
 
 /// A flattened scene, and what there is to say about it.
@@ -51,7 +52,7 @@ use texels::Texels;
 pub struct Flattened {
     /// The renderers' input.
     pub scene: FlatScene,
-    /// What is legal but suspicious, in the order of the scene file.
+    /// What is legal but suspicious: model by model, then what concerns several.
     pub warnings: Vec<Diagnostic>,
     /// Triangles left out because they have no area in f32.
     pub without_area: usize,
@@ -73,28 +74,17 @@ pub fn flatten(scene: &Scene) -> Result<Flattened, SceneError> {
     check_range("the camera", scene.camera.eye)?;
     let rows = Rows::new(scene);
     let mut bodies = Bodies::new(scene, &rows)?;
-    let mut warnings = Vec::new();
-    let mut faces = Faces::default();
-    let mut without_area = 0;
-    for (model, &body) in scene.models.iter().zip(&bodies.of_model) {
-        let mut placed = Placed::new(model)?;
-        if bodies.is_transmissive(body) {
-            warnings.extend(orient::orient(&mut placed)?);
-            warnings.extend(copies::overlap(&placed));
-        }
-        let normals = normals::shading_normals(&placed);
-        without_area += faces.append(&placed, &normals, body, &rows);
-    }
     let mut texels = Texels::new();
     let (materials, material_names) = materials::table(scene, &rows, &mut texels);
+    let (horizon, zenith, environment) = background(scene, &mut texels);
+    let lights = scene.lights.iter().enumerate().map(light).collect::<Result<_, _>>()?;
+    let (mut faces, without_area, mut warnings) = faces_of_models(scene, &bodies, &rows)?;
     let merged = merge::merge(&mut faces, &bodies, &materials);
     warnings.extend(suspicions(scene, &faces, &bodies, without_area, merged));
     count_triangles(&mut bodies, &faces);
     if faces.triangles.is_empty() {
         faces.append_nothing();
     }
-    let lights = scene.lights.iter().enumerate().map(light).collect::<Result<_, _>>()?;
-    let (horizon, zenith, environment) = background(scene, &mut texels);
     let start = Instant::now();
     let tree =
         bvh::build(&faces.triangles, Preset::default()).map_err(|e| Diagnostic::error(e.to_string()))?;
@@ -122,6 +112,25 @@ pub fn flatten(scene: &Scene) -> Result<Flattened, SceneError> {
     };
     scene.radiance_bound = radiance::bounds(&scene);
     Ok(Flattened { scene, warnings, without_area, merged, bvh, bvh_time })
+}
+
+/// The triangles of all models, how many have no area and are left out, and what is suspicious about them.
+fn faces_of_models(
+    scene: &Scene,
+    bodies: &Bodies,
+    rows: &Rows,
+) -> Result<(Faces, usize, Vec<Diagnostic>), SceneError> {
+    let (mut faces, mut without_area, mut warnings) = (Faces::default(), 0, Vec::new());
+    for (model, &body) in scene.models.iter().zip(&bodies.of_model) {
+        let mut placed = Placed::new(model)?;
+        if bodies.is_transmissive(body) {
+            warnings.extend(orient::orient(&mut placed)?);
+            warnings.extend(copies::overlap(&placed));
+        }
+        let normals = normals::shading_normals(&placed);
+        without_area += faces.append(&placed, &normals, body, rows);
+    }
+    Ok((faces, without_area, warnings))
 }
 
 /// A message about a model, at its place in the scene file.
@@ -173,42 +182,6 @@ fn count_triangles(bodies: &mut Bodies, faces: &Faces) {
     }
 }
 
-fn light((index, light): (usize, &crate::scene::Light)) -> Result<Light, SceneError> {
-    check_range(&format!("light {}", index + 1), light.position)?;
-    Ok(Light {
-        position: narrow3(light.position),
-        inverse_square: u32::from(light.falloff == Falloff::InverseSquare),
-        intensity: narrow3(light.intensity),
-        reserved: 0,
-    })
-}
-
-fn check_range(what: &str, place: DVec3) -> Result<(), SceneError> {
-    if place.abs().max_element() <= MAX_COORDINATE {
-        return Ok(());
-    }
-    let message = format!("{what} stands beyond ±{MAX_COORDINATE:.2e}");
-    Err(Diagnostic::error(message).hint("bring it nearer").into())
-}
-
-/// A background picture, its turn and its intensity.
-type Environment = (FlatTexture, f32, f32);
-
-/// Radiance at the horizon and at the zenith (black behind a picture), and the picture.
-fn background(scene: &Scene, texels: &mut Texels) -> ([f32; 3], [f32; 3], Option<Environment>) {
-    match scene.background {
-        Background::Color(color) => (narrow3(color), narrow3(color), None),
-        Background::Gradient { zenith, horizon } => (narrow3(horizon), narrow3(zenith), None),
-        Background::Image { texture, rotation_y, intensity } => {
-            let turn = narrow((rotation_y / 360.0).rem_euclid(1.0));
-            // Rounding may reach 1, which is no turn at all.
-            let turn = if turn < 1.0 { turn } else { 0.0 };
-            let picture = texels.environment(scene, texture);
-            ([0.0; 3], [0.0; 3], Some((picture, turn, narrow(intensity))))
-        }
-    }
-}
-
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
@@ -216,7 +189,7 @@ mod tests {
 
     use super::*;
 
-    use crate::scene::{MaterialId, Pixels, Texture, TextureId};
+    use crate::scene::{Background, Falloff, MaterialId, Pixels, Texture, TextureId};
     use samples::{ICE, STONE, cube, cuboid, empty_scene, flattened, lamp, mesh, model, scene_of};
 
     #[test]

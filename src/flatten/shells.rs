@@ -5,8 +5,8 @@ use rayon::iter::{IntoParallelRefMutIterator, ParallelIterator};
 
 use super::edges;
 use super::faces::corners;
+use super::flood::Winding;
 use super::number::narrow3;
-use super::orient::Winding;
 use super::pierce::Lines;
 use super::place::{Placed, bounds};
 use crate::bvh::BvhError;
