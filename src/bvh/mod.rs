@@ -21,5 +21,6 @@ pub use stats::Statistics;
 /// Triangles in a leaf, at most.
 pub const MAX_LEAF: u32 = 4;
 
-/// What visiting a node costs, in ray–triangle tests: it tests two boxes, which measures about as much.
+/// What visiting a node (testing its two boxes) costs, in ray–triangle tests. Between 0.6 and 1.5 the time to
+/// trace does not change measurably.
 pub const NODE_COST: f64 = 1.0;
