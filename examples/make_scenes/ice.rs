@@ -56,10 +56,10 @@ const CUTS: [([f64; 3], f64); 11] = [
     ([0.05, 1.0, 0.04], 0.93),
     ([0.10, 0.04, 1.0], 0.86),
     ([-0.08, 0.05, -1.0], 0.84),
-    ([0.9, 0.35, 0.8], 1.13),
-    ([-0.8, 0.75, 0.5], 1.16),
-    ([0.6, 0.9, -0.5], 1.22),
-    ([-0.9, -0.3, 0.8], 1.22),
+    ([0.9, 0.35, 0.8], 1.09),
+    ([-0.8, 0.75, 0.5], 1.05),
+    ([0.75, 0.9, 0.1], 1.12),
+    ([-0.9, -0.3, 0.8], 1.14),
     ([0.5, -0.8, 0.7], 1.22),
     ([-0.6, 0.2, -0.9], 1.15),
 ];
@@ -76,7 +76,7 @@ fn block(p: DVec3) -> f64 {
 
 /// What the chisel and the thaw leave: shallow hollows with soft ridges, over broad waves.
 fn melt(p: DVec3) -> f64 {
-    0.045 * noise(p * 1.5, 1) - 0.11 * (hollows(p * DVec3::new(2.2, 1.9, 2.2), 10.0, 2) - 0.2)
+    0.045 * noise(p * 1.5, 1) - 0.13 * (hollows(p * DVec3::new(2.5, 2.1, 2.5), 10.0, 6) - 0.2)
 }
 
 /// The hollow: a rounded box with a wavy wall.
@@ -193,7 +193,7 @@ impl Crack {
 /// Flat on top but for the meniscus, which climbs the wall by a little.
 fn liquid() -> Mesh {
     const RIM: usize = 26;
-    const RINGS: usize = 60;
+    const RINGS: usize = 44;
     let centre = DVec3::new(CAVITY.x, LEVEL, CAVITY.z);
     let reach = |p: DVec3| cavity(p) - OVERLAP;
     between_poles(RINGS, 144, |ring, turn| {
@@ -227,9 +227,9 @@ fn extent(field: &impl Field, origin: DVec3, direction: DVec3) -> f64 {
 
 /// A low dome of water with a wandering outline around the foot, and drops beside it.
 fn puddle() -> Mesh {
-    let mut mesh = drop(DVec2::ZERO, 0.035, 12, 160, |turn| {
+    let mut mesh = drop(DVec2::ZERO, 0.03, 12, 200, |turn| {
         let shore = around(1.0, 0.0, turn);
-        1.16 + 0.22 * noise(shore * 1.3, 61) + 0.07 * noise(shore * 4.0, 62)
+        1.28 + 0.34 * noise(shore * 1.4, 61) + 0.16 * noise(shore * 3.1, 64) + 0.05 * noise(shore * 7.0, 62)
     });
     let mut random = Random::new(9);
     let mut placed: Vec<(DVec2, f64)> = Vec::new();
@@ -244,7 +244,7 @@ fn puddle() -> Mesh {
         if placed.iter().all(|(c, r)| c.distance(centre) > r + radius + 0.03) {
             placed.push((centre, radius));
             let seed = placed.len() as u32 + 70;
-            mesh.append(&drop(centre, 0.45 * radius, 8, 28, |turn| {
+            mesh.append(&drop(centre, 0.45 * radius, 6, 20, |turn| {
                 radius * (1.0 + 0.25 * noise(around(0.9, 0.0, turn), seed))
             }));
         }

@@ -5,14 +5,19 @@
 //!
 //! The same bytes come out of every run. A mesh that is not a closed, consistently oriented solid is not written.
 
+mod checker;
+mod city;
 mod field;
+mod goblet;
 mod ice;
 mod mesh;
 mod noise;
 mod obj;
 mod panorama;
+mod prism;
 mod product;
 mod shapes;
+mod still_life;
 mod studio;
 mod surface_nets;
 mod table;
@@ -21,12 +26,20 @@ mod topology;
 use std::error::Error;
 use std::path::Path;
 
-use product::Product;
-
 fn main() -> Result<(), Box<dyn Error>> {
     let wanted: Vec<String> = std::env::args().skip(1).collect();
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
-    let products = [ice::products(), table::products(), studio::products()].concat();
+    let products = [
+        ice::products(),
+        table::products(),
+        studio::products(),
+        goblet::products(),
+        checker::products(),
+        prism::products(),
+        city::products(),
+        still_life::products(),
+    ]
+    .concat();
     for product in products {
         if wanted.is_empty() || wanted.iter().any(|word| product.path.contains(word)) {
             product.write(&folder)?;

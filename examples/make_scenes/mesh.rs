@@ -51,6 +51,16 @@ impl Mesh {
         triangle.map(|i| self.positions[i as usize])
     }
 
+    /// One unit normal for each vertex: the mean of its faces', weighted by area.
+    pub(crate) fn smooth_normals(&self) -> Vec<DVec3> {
+        let mut normals = vec![DVec3::ZERO; self.positions.len()];
+        for &t in &self.triangles {
+            let [a, b, c] = self.corners(t);
+            t.iter().for_each(|&i| normals[i as usize] += (b - a).cross(c - a));
+        }
+        normals.into_iter().map(DVec3::normalize_or_zero).collect()
+    }
+
     /// Enclosed volume by the divergence theorem: positive for a solid, negative for a bubble.
     pub(crate) fn volume(&self) -> f64 {
         self.triangles.iter().map(|t| self.corners(*t)).map(|[a, b, c]| a.dot(b.cross(c)) / 6.0).sum()

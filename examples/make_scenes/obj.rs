@@ -21,46 +21,56 @@ pub(crate) struct Part<'a> {
     /// The object's name and its material in the MTL file.
     pub(crate) name: &'a str,
     pub(crate) mesh: &'a Mesh,
+    /// Whether the file carries normals that round the edges.
+    pub(crate) smooth: bool,
 }
 
 /// One unnamed mesh under a comment.
 pub(crate) fn text(comment: &str, mesh: &Mesh) -> String {
     let mut out = format!("# {comment}\n");
-    write_mesh(&mut out, mesh, &mut [1, 1]);
+    write_mesh(&mut out, mesh, &[], &mut [1; 3]);
     out
 }
 
 /// Several objects, each in the material of its own name.
 pub(crate) fn text_with_materials(comment: &str, library: &str, parts: &[Part]) -> String {
     let mut out = format!("# {comment}\nmtllib {library}\n");
-    let mut first = [1, 1];
+    let mut first = [1; 3];
     for part in parts {
         let _ = writeln!(out, "o {0}\nusemtl {0}", part.name);
-        write_mesh(&mut out, part.mesh, &mut first);
+        let normals = if part.smooth { part.mesh.smooth_normals() } else { Vec::new() };
+        write_mesh(&mut out, part.mesh, &normals, &mut first);
     }
     out
 }
 
-/// Writes the mesh; `first` are the next free numbers of a position and a texture coordinate.
-fn write_mesh(out: &mut String, mesh: &Mesh, first: &mut [u32; 2]) {
+/// Writes the mesh; `first` are the next free numbers of a position, a texture coordinate and a normal.
+fn write_mesh(out: &mut String, mesh: &Mesh, normals: &[DVec3], first: &mut [u32; 3]) {
     for DVec3 { x, y, z } in &mesh.positions {
         let _ = writeln!(out, "v {} {} {}", digits(*x), digits(*y), digits(*z));
     }
     for DVec2 { x, y } in &mesh.uvs {
         let _ = writeln!(out, "vt {} {}", digits(*x), digits(*y));
     }
+    for DVec3 { x, y, z } in normals {
+        let _ = writeln!(out, "vn {x:.3} {y:.3} {z:.3}");
+    }
     for t in &mesh.triangles {
         out.push('f');
         for &i in t {
-            let _ = write!(out, " {}", i + first[0]);
-            if !mesh.uvs.is_empty() {
-                let _ = write!(out, "/{}", i + first[1]);
-            }
+            let [v, vt, vn] = first.map(|f| i + f);
+            let _ = match (mesh.uvs.is_empty(), normals.is_empty()) {
+                (true, true) => write!(out, " {v}"),
+                (false, true) => write!(out, " {v}/{vt}"),
+                (true, false) => write!(out, " {v}//{vn}"),
+                (false, false) => write!(out, " {v}/{vt}/{vn}"),
+            };
         }
         out.push('\n');
     }
-    first[0] += mesh.positions.len() as u32;
-    first[1] += mesh.uvs.len() as u32;
+    for (first, count) in first.iter_mut().zip([mesh.positions.len(), mesh.uvs.len(), normals.len()]) {
+        *first += count as u32;
+    }
 }
 
 /// Fixed point without trailing zeros or a lone sign.

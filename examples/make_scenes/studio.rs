@@ -9,11 +9,32 @@ use crate::product::{Make, Product};
 
 /// The environments made here.
 pub(crate) fn products() -> Vec<Product> {
-    vec![Product { path: "environments/studio.hdr", make: Make::Hdr(studio) }]
+    vec![
+        Product { path: "environments/studio.hdr", make: Make::Hdr(studio) },
+        Product { path: "environments/bright_field.hdr", make: Make::Hdr(bright_field) },
+    ]
 }
 
 fn studio() -> Rgb32FImage {
     render(1024, radiance)
+}
+
+/// How glass is photographed: one bright panel behind, black to both sides that draws the outlines dark.
+fn bright_field() -> Rgb32FImage {
+    let back = Panel {
+        centre: 3.0 * towards(0.0, 8.0),
+        half: DVec2::new(2.6, 2.4),
+        softness: 1.6,
+        radiance: DVec3::new(1.02, 1.0, 0.95),
+    };
+    let side = Panel {
+        centre: 3.0 * towards(-108.0, 26.0),
+        half: DVec2::new(0.7, 1.5),
+        softness: 0.08,
+        radiance: DVec3::new(4.6, 4.8, 5.2),
+    };
+    let dark = DVec3::new(0.022, 0.021, 0.024);
+    render(512, |d| dark + back.light(d) + side.light(d) * panes(&side, d))
 }
 
 fn radiance(d: DVec3) -> DVec3 {
@@ -25,12 +46,12 @@ fn radiance(d: DVec3) -> DVec3 {
             softness: 0.03,
             radiance: DVec3::new(5.4, 6.2, 7.0),
         },
-        // Its neighbour behind the camera, mirrored by the wet front.
+        // Its neighbour, low behind the camera: the wet front mirrors it.
         Panel {
-            centre: 3.0 * towards(-142.0, 34.0),
-            half: DVec2::new(0.8, 1.1),
+            centre: 3.0 * towards(-164.0, 15.0),
+            half: DVec2::new(0.95, 0.8),
             softness: 0.03,
-            radiance: DVec3::new(9.0, 10.2, 11.4),
+            radiance: DVec3::new(11.0, 12.4, 13.6),
         },
     ];
     let boxes = [
@@ -41,12 +62,12 @@ fn radiance(d: DVec3) -> DVec3 {
             softness: 0.2,
             radiance: DVec3::new(6.4, 6.0, 5.4),
         },
-        // Back: a scrim above the picture's frame.
+        // Back: a scrim above the picture's frame, mirrored by the wet table.
         Panel {
-            centre: 3.0 * towards(-6.0, 42.0),
-            half: DVec2::new(1.1, 0.75),
-            softness: 0.5,
-            radiance: DVec3::new(2.5, 2.9, 3.3),
+            centre: 3.0 * towards(-8.0, 30.0),
+            half: DVec2::new(0.95, 0.75),
+            softness: 0.4,
+            radiance: DVec3::new(2.3, 2.7, 3.1),
         },
         // Fill: a large dim box in front, to the right.
         Panel {

@@ -7,7 +7,6 @@ use crate::field::smoothstep;
 use crate::mesh::Mesh;
 use crate::noise::{Random, tiled_noise};
 use crate::product::{Make, Product};
-use crate::shapes::prism;
 
 /// Scene units that one copy of the texture covers.
 const TILE: f64 = 4.0;
@@ -22,19 +21,36 @@ const PIXELS: u32 = 1024;
 pub(crate) fn products() -> Vec<Product> {
     vec![
         Product { path: "textures/oak.png", make: Make::Png(oak) },
-        Product::solid("ice/table.obj", "The table top: 28 × 0.4 × 13.5 units, its surface at y = 0.", top),
+        Product::solid("ice/table.obj", "The table top: 28 × 0.4 × 12 units, its surface at y = 0.", top),
     ]
 }
 
-/// A slab with a bevelled rim.
+/// A slab with a bevelled rim: its outline along z, in cells of a unit so that hits on it are exact, run along x.
 fn top() -> Mesh {
-    let (half, low) = (12.0, -0.4);
-    let bevel = 0.03;
-    let outline =
-        [(-5.5, low), (5.5, low), (5.5, -bevel), (5.5 - bevel, 0.0), (bevel - 5.5, 0.0), (-5.5, -bevel)];
-    let outline = outline.map(|(z, y)| DVec2::new(z, y));
-    // The prism runs along z; turn it about y so that it runs along x.
-    let mut mesh = prism(&outline, 2.0 * half).mapped(|p| DVec3::new(p.z, p.y, -p.x));
+    const HALF: i32 = 14;
+    const BEVEL: f64 = 0.03;
+    let (front, back, low) = (6, -6, -0.4);
+    let mut outline = vec![DVec2::new(f64::from(back), low), DVec2::new(f64::from(front), low)];
+    outline.push(DVec2::new(f64::from(front), -BEVEL));
+    outline.push(DVec2::new(f64::from(front) - BEVEL, 0.0));
+    outline.extend((back + 1..front).rev().map(|z| DVec2::new(f64::from(z), 0.0)));
+    outline.push(DVec2::new(f64::from(back) + BEVEL, 0.0));
+    outline.push(DVec2::new(f64::from(back), -BEVEL));
+    let mut mesh = Mesh::default();
+    for x in -HALF..=HALF {
+        outline.iter().for_each(|p| mesh.positions.push(DVec3::new(f64::from(x), p.y, p.x)));
+    }
+    let n = outline.len() as u32;
+    for strip in (0..2 * HALF as u32).map(|i| i * n) {
+        for i in 0..n {
+            let j = (i + 1) % n;
+            mesh.quad([strip + i, strip + n + i, strip + n + j, strip + j]);
+        }
+    }
+    for i in 1..n - 1 {
+        let last = 2 * HALF as u32 * n;
+        mesh.triangles.extend([[0, i, i + 1], [last, last + i + 1, last + i]]);
+    }
     let grain = DVec2::from_angle(BOARDS_TURN.to_radians());
     mesh.uvs = mesh.positions.iter().map(|p| grain.rotate(DVec2::new(p.x, -p.z)) / TILE).collect();
     mesh
@@ -71,9 +87,9 @@ fn wood(uv: DVec2) -> DVec3 {
     };
     let pores = smoothstep(0.35, 0.8, fine(34.0, 24.0, 21)) * 0.35
         + smoothstep(0.0, 1.0, fine(60.0, 12.0, 22)) * 0.18;
-    let light = DVec3::new(0.60, 0.53, 0.47);
-    let dark = DVec3::new(0.30, 0.25, 0.215);
+    let light = DVec3::new(0.55, 0.49, 0.44);
+    let dark = DVec3::new(0.27, 0.235, 0.21);
     let colour = light.lerp(dark, 0.3 + 0.2 * late + 0.12 * fine(6.0, 5.0, 23));
     let seam = smoothstep(0.006, 0.016, f.min(1.0 - f));
-    colour * (0.72 + 0.42 * tone) * (1.0 - 0.75 * pores) * (0.12 + 0.88 * seam)
+    colour * (0.72 + 0.42 * tone) * (1.0 - 0.75 * pores) * (0.4 + 0.6 * seam)
 }
