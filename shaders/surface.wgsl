@@ -27,15 +27,17 @@ fn resolve(ray: Ray, hit: Hit) -> Surface {
     let v2 = vec3r(triangles[hit.index].v2);
     let face = attributes[hit.id];
     let b0 = 1.0 - hit.b1 - hit.b2;
-    // The point, and a bound on its distance from the face.
+    // The point; how far rounding may put it off the face, and a leaving ray's test of this very face off the point.
     let p0 = v0 * b0;
     let p1 = v1 * hit.b1;
     let p2 = v2 * hit.b2;
     let point = p0 + p1 + p2;
     let size = abs(p0) + abs(p1) + abs(p2);
+    let extent = abs(v1 - v0) + abs(v2 - v0);
     let outward = vec3r(face.normal);
     let face_normal = select(-outward, outward, hit.front);
-    let offset = dot3(abs(face_normal), size) * (SPAWN_ROUNDOFFS * ROUNDOFF);
+    let reach = dot3(abs(face_normal), size) + (extent.x + extent.y + extent.z);
+    let offset = reach * (SPAWN_ROUNDOFFS * ROUNDOFF);
     var surface = Surface(
         point, offset, face_normal, face_normal, point, array<real, 2>(0.0, 0.0), face.material, face.body, hit.id,
         hit.front,

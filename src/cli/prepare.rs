@@ -4,20 +4,15 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use super::CliError;
-use crate::flatten::flatten;
-use crate::layout::FlatScene;
+use crate::flatten::{Flattened, flatten};
 use crate::scene::{Diagnostic, Scene};
 
 /// A scene that renderers can read, and what it took.
 pub(super) struct Prepared {
     pub(super) scene: Scene,
-    pub(super) flat: FlatScene,
-    /// What is legal but suspicious.
-    pub(super) warnings: Vec<Diagnostic>,
-    /// Reading and checking the files.
+    pub(super) flat: Flattened,
+    /// Reading, checking and flattening, the BVH left out.
     pub(super) load: Duration,
-    /// Flattening, the BVH included.
-    pub(super) bvh: Duration,
 }
 
 impl Prepared {
@@ -25,10 +20,13 @@ impl Prepared {
     pub(super) fn new(path: &Path) -> Result<Self, CliError> {
         let started = Instant::now();
         let scene = Scene::load(path)?;
-        let load = started.elapsed();
-        let flattened = flatten(&scene)?;
-        let bvh = started.elapsed() - load;
-        let warnings = scene.warnings.iter().cloned().chain(flattened.warnings).collect();
-        Ok(Self { scene, flat: flattened.scene, warnings, load, bvh })
+        let flat = flatten(&scene)?;
+        let load = started.elapsed().saturating_sub(flat.bvh_time);
+        Ok(Self { scene, flat, load })
+    }
+
+    /// What is legal but suspicious: first in the files, then in the geometry.
+    pub(super) fn warnings(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.scene.warnings.iter().chain(&self.flat.warnings)
     }
 }

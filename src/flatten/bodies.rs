@@ -96,3 +96,59 @@ fn too_many(count: usize, model: &Model) -> SceneError {
         .hint("join bodies of the same material into one mesh, or use `repeat`: its copies are one body")
         .into()
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::flatten::samples::{ICE, STONE, WATER, cube, cuboid, flattened, joined, model};
+
+    #[test]
+    fn transmissive_bodies_come_first_by_priority_then_by_the_file() {
+        let named = |name: &str, priority: i32, material: MaterialId| {
+            let place = DVec3::X * f64::from(name.as_bytes()[0]) * 4.0;
+            Model { priority, ..model(name, cuboid(place, place + 1.0), material) }
+        };
+        let models = vec![
+            named("a", 9, STONE),
+            named("b", 0, ICE),
+            named("c", 2, WATER),
+            named("d", 0, WATER),
+            named("e", 10, STONE),
+            named("f", 2, ICE),
+        ];
+        let scene = flattened(models).unwrap().scene;
+        let names: Vec<&str> = scene.bodies.iter().map(|body| body.name.as_str()).collect();
+        assert_eq!((names.join(""), scene.transmissive_bodies), ("cfbdae".to_owned(), 4));
+        // Triangles are still numbered as in the file.
+        let bodies: Vec<u32> = scene.attributes.iter().step_by(12).map(|face| face.body).collect();
+        assert_eq!(bodies, [4, 2, 0, 3, 5, 1]);
+        assert_eq!(scene.bodies[0].material, scene.attributes[24].material);
+    }
+
+    #[test]
+    fn one_body_of_two_media_is_an_error() {
+        let mut mixed =
+            model("mixed", joined(&[cube(1.0), cuboid(DVec3::splat(3.0), DVec3::splat(4.0))]), ICE);
+        mixed.materials.push(WATER);
+        std::sync::Arc::make_mut(&mut mixed.mesh).triangles[12..].iter_mut().for_each(|t| t.material = 1);
+        let error = flattened(vec![mixed.clone()]).unwrap_err();
+        assert!(error.diagnostics()[0].message.contains("`ice` and `water`"));
+        // A painted part is fine.
+        mixed.materials[1] = STONE;
+        assert_eq!(flattened(vec![mixed]).unwrap().scene.transmissive_bodies, 1);
+    }
+
+    #[test]
+    fn more_media_than_the_mask_holds_are_refused() {
+        let row = |count: u32| -> Vec<Model> {
+            let place = |k: u32| DVec3::X * 3.0 * f64::from(k);
+            (0..count).map(|k| model("drop", cuboid(place(k), place(k) + 1.0), WATER)).collect()
+        };
+        assert_eq!(flattened(row(MAX_MEDIA)).unwrap().scene.transmissive_bodies, MAX_MEDIA);
+        let error = flattened(row(MAX_MEDIA + 1)).unwrap_err();
+        assert!(error.diagnostics()[0].message.contains("33 bodies transmit light"));
+    }
+}

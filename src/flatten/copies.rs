@@ -21,3 +21,36 @@ pub(super) fn overlap(placed: &Placed) -> Option<Diagnostic> {
     );
     Some(super::at(Diagnostic::warning(message), model).hint("make the step at least as long as the model"))
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use glam::DVec3;
+
+    use crate::flatten::samples::{ICE, STONE, cube, flattened, model};
+    use crate::flatten::start_media;
+    use crate::scene::{MaterialId, Model, Repeat};
+
+    fn row(step: f64, material: MaterialId) -> Model {
+        let repeat = Repeat { count: [3, 1, 2], step: DVec3::new(step, 0.0, 5.0) };
+        Model { repeat, ..model("cube", cube(1.0), material) }
+    }
+
+    #[test]
+    fn overlapping_copies_of_a_transmissive_model_are_reported() {
+        let warned = |step, material| {
+            let flat = flattened(vec![row(step, material)]).unwrap();
+            flat.warnings.iter().any(|warning| warning.message.contains("copies of `cube` overlap along x"))
+        };
+        assert!(warned(1.5, ICE) && warned(-1.5, ICE));
+        assert!(!warned(2.0, ICE) && !warned(3.0, ICE) && !warned(1.5, STONE));
+    }
+
+    #[test]
+    fn copies_are_one_body() {
+        let scene = flattened(vec![row(4.0, ICE)]).unwrap().scene;
+        assert_eq!((scene.bodies.len(), scene.bodies[0].triangles), (1, 72));
+        let inside = [[0.0, 0.0], [2.0, 0.0], [4.0, 0.0], [8.0, 5.0], [8.0, 2.5], [12.0, 0.0]];
+        assert_eq!(inside.map(|[x, z]| start_media(&scene, [x + 0.1, 0.2, z + 0.3])), [1, 0, 1, 1, 0, 0]);
+    }
+}

@@ -143,3 +143,37 @@ fn overlap(a: &[DVec2; 3], b: &[DVec2; 3], tolerance: f64) -> bool {
         a_hi.min(b_hi) - a_lo.max(b_lo) > least
     })
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::flatten::samples::{ICE, STONE, WATER, cuboid, flattened, model};
+    use crate::scene::{MaterialId, Mesh};
+
+    /// Whether a unit cube and another mesh are reported.
+    fn reported(other: Mesh, material: MaterialId) -> bool {
+        let models = vec![model("a", cuboid(DVec3::ZERO, DVec3::ONE), ICE), model("b", other, material)];
+        flattened(models)
+            .unwrap()
+            .warnings
+            .iter()
+            .any(|w| w.message.contains("`a` and `b` overlap in one plane"))
+    }
+
+    #[test]
+    fn walls_that_overlap_in_part_are_reported() {
+        let beside = |y: f64| cuboid(DVec3::new(1.0, y, 0.0), DVec3::new(2.0, y + 1.0, 1.0));
+        assert!(reported(beside(0.25), WATER));
+        assert!(!reported(beside(0.25), STONE));
+        // Merged, apart, and touching along an edge.
+        assert!(!reported(beside(0.0), WATER));
+        assert!(!reported(beside(5.0), WATER));
+        assert!(!reported(beside(1.0), WATER));
+    }
+
+    #[test]
+    fn bodies_that_overlap_in_depth_are_fine() {
+        assert!(!reported(cuboid(DVec3::new(0.5, 0.25, 0.25), DVec3::new(2.0, 0.75, 0.75)), WATER));
+    }
+}

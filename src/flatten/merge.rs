@@ -159,3 +159,101 @@ fn is_even(triangle: &Triangle) -> bool {
     let [a, b, c] = corners(triangle);
     (a < b) ^ (b < c) ^ (a < c)
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::flatten::samples::{ICE, STONE, WATER, cube, cuboid, flattened, joined, model};
+    use crate::flatten::start_media;
+    use crate::layout::FlatScene;
+    use crate::scene::{MaterialId, Mesh, Model, Repeat};
+
+    fn unit(x: f64) -> Mesh {
+        cuboid(DVec3::new(x, 0.0, 0.0), DVec3::new(x + 1.0, 1.0, 1.0))
+    }
+
+    fn merged(models: Vec<Model>) -> (FlatScene, Merged) {
+        let flat = flattened(models).unwrap();
+        let ids: Vec<u32> = flat.scene.triangles.iter().map(|triangle| triangle.id).collect();
+        assert!((0..flat.scene.attributes.len() as u32).all(|id| ids.contains(&id)));
+        (flat.scene, flat.merged)
+    }
+
+    #[test]
+    fn a_shared_wall_is_one_interface_with_two_outsides() {
+        let (scene, merged) = merged(vec![model("a", unit(0.0), ICE), model("b", unit(1.0), WATER)]);
+        assert_eq!(merged, Merged { interfaces: 2, ..Merged::default() });
+        assert_eq!(scene.attributes.len(), 22);
+        let walls: Vec<_> = scene.attributes.iter().filter(|face| face.other != Attribute::NONE).collect();
+        assert_eq!(walls.len(), 2);
+        for wall in walls {
+            assert_eq!((wall.body, wall.other, wall.normal), (0, 1 | Attribute::OPPOSITE, [1.0, 0.0, 0.0]));
+        }
+        assert_eq!([0.5, 1.5].map(|x| start_media(&scene, [x, 0.4, 0.3])), [0b01, 0b10]);
+    }
+
+    #[test]
+    fn the_higher_priority_governs_and_keeps_its_normal() {
+        let high = Model { priority: 1, ..model("b", unit(1.0), WATER) };
+        let (scene, _) = merged(vec![model("a", unit(0.0), ICE), high]);
+        let wall = scene.attributes.iter().find(|face| face.other != Attribute::NONE).unwrap();
+        assert_eq!((wall.body, wall.other, wall.normal), (0, 1 | Attribute::OPPOSITE, [-1.0, 0.0, 0.0]));
+        assert_eq!((scene.bodies[0].name.as_str(), scene.bodies[0].triangles), ("b", 12));
+        assert_eq!(scene.bodies[1].triangles, 10);
+        // The lowest id stays, and with it the order: the wall lies among the first model's faces.
+        let id = scene.attributes.iter().position(|face| face.other != Attribute::NONE).unwrap();
+        assert_eq!(id, 2);
+    }
+
+    #[test]
+    fn coincident_cubes_look_the_same_way() {
+        let (scene, merged) = merged(vec![model("a", cube(1.0), ICE), model("b", cube(1.0), WATER)]);
+        assert_eq!(merged.interfaces, 12);
+        assert!(scene.attributes.iter().all(|face| (face.body, face.other) == (0, 1)));
+        assert_eq!(start_media(&scene, [0.1, 0.2, 0.3]), 0b11);
+    }
+
+    #[test]
+    fn an_opaque_face_stays_alone() {
+        let (scene, _) = merged(vec![model("glass", unit(0.0), ICE), model("wall", unit(1.0), STONE)]);
+        assert_eq!(scene.attributes.len(), 22);
+        assert!(scene.attributes.iter().all(|face| face.other == Attribute::NONE));
+        let wall: Vec<u32> = scene.attributes[2..4].iter().map(|face| face.body).collect();
+        assert_eq!(wall, [1, 1]);
+        assert_eq!([0.9, 1.1].map(|x| start_media(&scene, [x, 0.5, 0.5])), [1, 0]);
+    }
+
+    #[test]
+    fn duplicates_within_a_body_are_left_out() {
+        for material in [ICE, STONE] {
+            let doubled = joined(&[cube(1.0), cube(1.0)]);
+            let (scene, merged) = merged(vec![model("twice", doubled, material)]);
+            assert_eq!((scene.attributes.len(), merged.duplicates), (12, 12), "{material:?}");
+        }
+    }
+
+    #[test]
+    fn the_wall_between_touching_copies_is_no_wall() {
+        let copies = |material: MaterialId| Model {
+            repeat: Repeat { count: [3, 1, 1], step: DVec3::X },
+            ..model("row", unit(0.0), material)
+        };
+        let (scene, _) = merged(vec![copies(ICE)]);
+        assert_eq!(scene.attributes.len(), 3 * 12 - 2 * 4);
+        assert_eq!([0.5, 1.5, 2.5, 3.5].map(|x| start_media(&scene, [x, 0.4, 0.3])), [1, 1, 1, 0]);
+        // Opaque sheets that lie back to back are still seen from both sides.
+        let (scene, _) = merged(vec![copies(STONE)]);
+        assert_eq!(scene.attributes.len(), 3 * 12 - 2 * 2);
+    }
+
+    #[test]
+    fn a_third_body_is_reported() {
+        let models = [ICE, WATER, ICE].map(|material| model("same", cube(1.0), material));
+        let flat = flattened(models.into()).unwrap();
+        assert_eq!((flat.merged.crowded, flat.scene.attributes.len()), (12, 24));
+        assert!(flat.warnings[0].message.contains("more than two"));
+    }
+}

@@ -25,6 +25,8 @@ mod number;
 mod orient;
 mod place;
 mod radiance;
+#[cfg(test)]
+mod samples;
 mod shells;
 mod texels;
 mod view;
@@ -195,5 +197,130 @@ fn background(scene: &Scene, texels: &mut Texels) -> ([f32; 3], [f32; 3], Option
             let picture = texels.environment(scene, texture);
             ([0.0; 3], [0.0; 3], Some((picture, turn, narrow(intensity))))
         }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use glam::{DAffine3, DVec2, DVec3};
+
+    use super::*;
+
+    use crate::scene::{MaterialId, Pixels, Texture, TextureId};
+    use samples::{ICE, STONE, cube, cuboid, empty_scene, flattened, lamp, mesh, model, scene_of};
+
+    #[test]
+    fn an_empty_scene_holds_one_triangle_without_area() {
+        let scene = flattened(vec![]).unwrap().scene;
+        assert_eq!((scene.triangles.len(), scene.attributes.len(), scene.nodes.len()), (1, 1, 1));
+        assert_eq!((scene.bounds, scene.materials.len()), ([[0.0; 3]; 2], 1));
+        assert_eq!(start_media(&scene, [0.0; 3]), 0);
+    }
+
+    #[test]
+    fn the_tree_is_sound_and_the_triangles_stand_in_its_order() {
+        let flat = flattened(vec![model("a", cube(1.0), ICE), model("b", cube(3.0), STONE)]).unwrap();
+        let tree = bvh::Bvh {
+            nodes: flat.scene.nodes.clone(),
+            order: (0..24).collect(),
+            depth: flat.scene.bvh_depth,
+        };
+        assert_eq!(bvh::check(&tree, &flat.scene.triangles), Ok(()));
+        assert_eq!(flat.scene.bounds, [[-3.0; 3], [3.0; 3]]);
+    }
+
+    #[test]
+    fn triangles_without_area_are_left_out_and_counted() {
+        let thin = [DVec3::ZERO, DVec3::X, DVec3::X * 2.0, DVec3::Y];
+        let flat =
+            flattened(vec![model("thin", mesh(&thin, &[[0, 1, 2], [0, 2, 3], [1, 1, 3]]), STONE)]).unwrap();
+        assert_eq!((flat.scene.attributes.len(), flat.without_area), (1, 2));
+        assert!(flat.warnings[0].message.contains("2 triangles have no area"));
+    }
+
+    #[test]
+    fn no_subnormal_and_no_negative_zero_gets_through() {
+        let tiny = |x: f64| cuboid(DVec3::new(-0.0, -1e-40, x), DVec3::ONE);
+        let scene = flattened(vec![model("tiny", tiny(1e-42), STONE)]).unwrap().scene;
+        for x in scene.triangles.iter().flat_map(|t| [t.v0, t.v1, t.v2]).flatten() {
+            assert!(x.to_bits() == 0 || x.is_normal(), "{x:e}");
+        }
+    }
+
+    #[test]
+    fn what_lies_beyond_2_to_the_60_is_an_error() {
+        let far = |half: f64, scale: f64| Model {
+            world_from_object: DAffine3::from_scale(DVec3::splat(scale)),
+            ..model("far", cube(half), STONE)
+        };
+        assert!(flattened(vec![far(1.0, 1e18)]).is_ok());
+        for (half, scale) in [(1.0, 1e19), (1e300, 1e300)] {
+            let error = flattened(vec![far(half, scale)]).unwrap_err();
+            assert!(error.diagnostics()[0].message.contains("`far` reaches beyond"));
+        }
+        let mut scene = scene_of(vec![]);
+        scene.lights = vec![lamp(DVec3::splat(1e30), 1.0, Falloff::None)];
+        assert!(flatten(&scene).is_err());
+    }
+
+    #[test]
+    fn only_materials_that_are_worn_have_rows() {
+        let scene = flattened(vec![model("a", cube(1.0), STONE)]).unwrap().scene;
+        assert_eq!(scene.material_names, ["air", "stone"]);
+        assert_eq!((scene.materials[0].ior, scene.materials[0].transmission), (1.0, [1.0; 3]));
+        assert!(scene.attributes.iter().all(|face| face.material == 1));
+    }
+
+    #[test]
+    fn a_textured_face_has_corners_and_copies_share_them() {
+        let mut scene = empty_scene();
+        let pixels = Pixels::Srgb8(vec![[9, 8, 7]]);
+        scene.textures.push(Texture { path: "dot.png".into(), width: 1, height: 1, pixels });
+        scene.materials[STONE.0].texture = Some(TextureId(0));
+        let mut square = mesh(&[DVec3::ZERO, DVec3::X, DVec3::Y], &[[0, 1, 2]]);
+        square.uvs = vec![DVec2::ZERO, DVec2::new(1.0, 0.0), DVec2::new(0.0, 1.0)];
+        square.triangles[0].uvs = [0, 1, 2];
+        let repeat = crate::scene::Repeat { count: [4, 1, 1], step: DVec3::X * 2.0 };
+        scene.models.push(Model { repeat, ..model("square", square, STONE) });
+        let flat = flatten(&scene).unwrap().scene;
+        assert_eq!((flat.attributes.len(), flat.corners.len()), (4, 3));
+        assert!(flat.attributes.iter().all(|face| face.corners == 0));
+        assert_eq!(
+            (flat.corners[1].u, flat.corners[1].v, flat.corners[1].normal),
+            (1.0, 0.0, [0.0, 0.0, 1.0])
+        );
+        assert_eq!((flat.materials[1].texture, flat.texels[256]), (256, 0x0007_0809));
+    }
+
+    #[test]
+    fn a_turn_of_the_background_is_within_one() {
+        for (degrees, expected) in [(0.0, 0.0), (90.0, 0.25), (-90.0, 0.75), (360.0, 0.0), (-1e-9, 0.0)] {
+            let mut scene = empty_scene();
+            let pixels = Pixels::Linear(vec![[1.0, 2.0, 3.0]]);
+            scene.textures.push(Texture { path: "sky.hdr".into(), width: 1, height: 1, pixels });
+            scene.background =
+                Background::Image { texture: TextureId(0), rotation_y: degrees, intensity: 0.5 };
+            let flat = flatten(&scene).unwrap().scene;
+            assert_eq!(flat.environment.unwrap().1, expected, "{degrees}");
+            assert_eq!(flat.radiance_bound[0], 1.5);
+        }
+    }
+
+    #[test]
+    fn errors_stand_at_their_model() {
+        let location = crate::scene::Location {
+            file: "a.toml".into(),
+            line: 3,
+            column: 1,
+            length: 5,
+            text: "[[model]]".into(),
+        };
+        let mut open = cube(1.0);
+        open.triangles.pop();
+        let located = Model { location: Some(location.clone()), ..model("open", open, MaterialId(0)) };
+        let error = flattened(vec![located]).unwrap_err();
+        assert_eq!(error.diagnostics()[0].location, Some(location));
+        assert_eq!(error.diagnostics()[0].severity, crate::scene::Severity::Error);
     }
 }

@@ -128,3 +128,68 @@ impl Fans {
         self.parent[a.max(b) as usize] = a.min(b);
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::flatten::samples::{STONE, cube, flattened, model};
+    use crate::layout::{Attribute, Corner};
+    use crate::scene::{Mesh, Model};
+
+    fn corners(mesh: Mesh, normals: Normals) -> Vec<Corner> {
+        let flat = flattened(vec![Model { normals, ..model("it", mesh, STONE) }]).unwrap().scene;
+        let smooth = flat.attributes.iter().filter(|face| face.corners != Attribute::NONE).count();
+        assert_eq!(flat.corners.len(), smooth * 3);
+        flat.corners
+    }
+
+    /// A cube whose every face has the given normal, by face.
+    fn with_normals(normal: impl Fn(usize) -> DVec3) -> Mesh {
+        let mut mesh = cube(1.0);
+        mesh.normals = (0..12).map(normal).collect();
+        mesh.triangles.iter_mut().zip(0..).for_each(|(triangle, index)| triangle.normals = [index; 3]);
+        mesh
+    }
+
+    #[test]
+    fn a_cube_stays_flat_below_its_crease_and_is_rounded_above() {
+        assert!(corners(cube(1.0), Normals::Crease(30.0)).is_empty());
+        assert!(corners(cube(1.0), Normals::Crease(90.0)).is_empty());
+        let rounded = corners(cube(1.0), Normals::Crease(120.0));
+        assert_eq!(rounded.len(), 36);
+        // Weighted by angle, the diagonals of the faces do not show: normals point along the corners.
+        let third = (1.0_f32 / 3.0).sqrt();
+        for component in rounded.iter().flat_map(|corner| corner.normal) {
+            assert!((component.abs() - third).abs() < 1e-6, "{component}");
+        }
+    }
+
+    #[test]
+    fn the_normals_of_the_file_are_kept_where_they_can_be_used() {
+        let slanted = DVec3::new(0.5, 0.5, 0.5).normalize();
+        assert_eq!(corners(with_normals(|_| slanted), Normals::File).len(), 36);
+        assert!(corners(with_normals(|_| slanted), Normals::Flat).is_empty());
+        assert!(corners(cube(1.0), Normals::File).is_empty());
+    }
+
+    #[test]
+    fn normals_of_no_length_or_no_number_fall_back_to_the_face() {
+        for broken in [DVec3::ZERO, DVec3::NAN, DVec3::INFINITY] {
+            assert!(corners(with_normals(|_| broken), Normals::File).is_empty());
+        }
+    }
+
+    #[test]
+    fn normals_of_the_file_are_turned_to_the_face_and_with_the_model() {
+        let mesh = with_normals(|_| DVec3::new(0.1, 0.2, 1.0).normalize());
+        let quarter = glam::DAffine3::from_rotation_y(std::f64::consts::FRAC_PI_2);
+        let turned = Model { world_from_object: quarter, normals: Normals::File, ..model("it", mesh, STONE) };
+        let flat = flattened(vec![turned]).unwrap().scene;
+        for face in &flat.attributes {
+            let corner = flat.corners[face.corners as usize].normal;
+            assert!(corner.iter().zip(face.normal).map(|(a, b)| a * b).sum::<f32>() > 0.0);
+            assert!(corner[0].abs() > 0.9, "{corner:?}");
+        }
+    }
+}

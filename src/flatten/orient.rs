@@ -156,3 +156,152 @@ fn report(model: &Model, rewound: usize, shells: &[Shell]) -> Vec<Diagnostic> {
     }
     warnings
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::flatten::samples::{ICE, STONE, cube, cuboid, flattened, inside_out, joined, mesh, model};
+    use crate::flatten::{Flattened, start_media};
+    use crate::scene::Mesh;
+
+    fn messages(flat: &Flattened) -> Vec<&str> {
+        flat.warnings.iter().map(|warning| warning.message.as_str()).collect()
+    }
+
+    /// Whether each point along x is inside the body.
+    fn inside(mesh: Mesh, xs: &[f64]) -> Vec<bool> {
+        let flat = flattened(vec![model("it", mesh, ICE)]).unwrap();
+        xs.iter().map(|&x| start_media(&flat.scene, [x, 0.01, 0.02]) == 1).collect()
+    }
+
+    #[test]
+    fn a_cube_is_as_it_should_be() {
+        let flat = flattened(vec![model("cube", cube(1.0), ICE)]).unwrap();
+        assert!(flat.warnings.is_empty());
+        for (triangle, face) in flat.scene.triangles.iter().map(|t| (t, flat.scene.attributes[t.id as usize]))
+        {
+            let outwards: f32 = (0..3).map(|axis| triangle.v0[axis] * face.normal[axis]).sum();
+            assert_eq!(outwards, 1.0);
+        }
+    }
+
+    #[test]
+    fn an_inside_out_cube_is_turned_and_reported() {
+        let flat = flattened(vec![model("cube", inside_out(cube(1.0)), ICE)]).unwrap();
+        assert_eq!(messages(&flat), ["the mesh of `cube` was inside-out"]);
+        assert_eq!(start_media(&flat.scene, [0.1, 0.2, 0.3]), 1);
+    }
+
+    #[test]
+    fn a_cavity_is_not_inside_out() {
+        let hollow = joined(&[cube(2.0), inside_out(cube(1.0))]);
+        let flat = flattened(vec![model("hollow", hollow.clone(), ICE)]).unwrap();
+        assert!(flat.warnings.is_empty());
+        assert_eq!(inside(hollow, &[0.0, 1.5, 2.5]), [false, true, false]);
+    }
+
+    #[test]
+    fn a_cavity_that_looks_into_the_matter_is_turned() {
+        let hollow = joined(&[cube(2.0), cube(1.0)]);
+        let flat = flattened(vec![model("hollow", hollow.clone(), ICE)]).unwrap();
+        assert_eq!(messages(&flat), ["1 of 2 shells of `hollow` were inside-out"]);
+        assert_eq!(inside(hollow, &[0.0, 1.5, 2.5]), [false, true, false]);
+    }
+
+    #[test]
+    fn shells_alternate_however_deep_they_nest() {
+        let nested = joined(&[cube(1.0), cube(4.0), cube(2.0), cube(3.0)]);
+        assert_eq!(inside(nested, &[0.0, 1.5, 2.5, 3.5, 4.5]), [false, true, false, true, false]);
+    }
+
+    #[test]
+    fn single_faces_are_turned_with_their_shell() {
+        let mut bent = cube(1.0);
+        super::super::place::reverse(&mut bent.triangles[3]);
+        super::super::place::reverse(&mut bent.triangles[8]);
+        let flat = flattened(vec![model("cube", bent.clone(), ICE)]).unwrap();
+        assert_eq!(messages(&flat), ["2 of 12 faces of `cube` were wound against the others"]);
+        assert_eq!(inside(bent, &[0.0, 1.5]), [true, false]);
+    }
+
+    #[test]
+    fn a_mirrored_model_stays_outside_out() {
+        let mirrored = Model {
+            world_from_object: glam::DAffine3::from_scale(DVec3::splat(-1.0)),
+            ..model("cube", cube(1.0), ICE)
+        };
+        let flat = flattened(vec![mirrored]).unwrap();
+        assert!(flat.warnings.is_empty());
+        assert_eq!(start_media(&flat.scene, [0.1, 0.2, 0.3]), 1);
+    }
+
+    #[test]
+    fn an_open_mesh_is_an_error_if_it_transmits_light() {
+        let mut open = cube(1.0);
+        open.triangles.remove(5);
+        let error = flattened(vec![model("cup", open.clone(), ICE)]).unwrap_err();
+        let diagnostic = &error.diagnostics()[0];
+        assert!(diagnostic.message.contains("`cup` is open") && diagnostic.message.contains("3 edges"));
+        assert!(diagnostic.hint.as_ref().unwrap().contains("(-1, -1, -1)"));
+        assert!(flattened(vec![model("cup", open, STONE)]).is_ok());
+    }
+
+    #[test]
+    fn an_inner_wall_bounds_no_solid() {
+        let upper = cuboid(DVec3::new(0.0, 1.0, 0.0), DVec3::new(1.0, 2.0, 1.0));
+        let stacked = joined(&[cuboid(DVec3::ZERO, DVec3::ONE), upper]);
+        let mut walled = stacked.clone();
+        walled.triangles.drain(16..18);
+        let error = flattened(vec![model("walled", walled, ICE)]).unwrap_err();
+        assert!(error.diagnostics()[0].message.contains("an odd number of faces"));
+        // With both sides of the wall it is two solids that touch.
+        assert_eq!(inside(stacked, &[0.5, 1.5]), [true, false]);
+    }
+
+    #[test]
+    fn cubes_that_touch_at_an_edge_are_two_shells() {
+        let touching = joined(&[
+            cuboid(DVec3::ZERO, DVec3::ONE),
+            cuboid(DVec3::new(1.0, 1.0, 0.0), DVec3::new(2.0, 2.0, 1.0)),
+        ]);
+        for mesh in [touching.clone(), inside_out(touching)] {
+            let flat = flattened(vec![model("two", mesh, ICE)]).unwrap();
+            assert!(flat.warnings.iter().all(|w| w.message == "the mesh of `two` was inside-out"));
+            let at = |x, y| start_media(&flat.scene, [x, y, 0.5]);
+            assert_eq!([at(0.5, 0.5), at(1.5, 1.5), at(1.5, 0.5), at(0.5, 1.5)], [1, 1, 0, 0]);
+        }
+    }
+
+    #[test]
+    fn a_one_sided_surface_has_no_inside() {
+        // The projective plane on six vertices (the hemi-icosahedron): closed, but without two sides.
+        let triangles = [
+            [0, 1, 2],
+            [0, 2, 3],
+            [0, 3, 4],
+            [0, 4, 5],
+            [0, 5, 1],
+            [1, 2, 4],
+            [2, 3, 5],
+            [3, 4, 1],
+            [4, 5, 2],
+            [5, 1, 3],
+        ];
+        let positions: Vec<DVec3> =
+            (0..6).map(|k| DVec3::new(f64::from(k), f64::from(k * k), f64::from(k * k * k))).collect();
+        let error = flattened(vec![model("strange", mesh(&positions, &triangles), ICE)]).unwrap_err();
+        assert!(error.diagnostics()[0].message.contains("one-sided"));
+    }
+
+    #[test]
+    fn shells_that_touch_from_inside_are_judged_where_they_are_apart() {
+        // Three walls of the cavity lie on the outer walls: most of its vertices are no witnesses.
+        let cavity = cuboid(DVec3::ZERO, DVec3::new(1.0, 2.0, 3.0));
+        let mesh = joined(&[cuboid(DVec3::ZERO, DVec3::splat(4.0)), inside_out(cavity)]);
+        let flat = flattened(vec![model("touching", mesh, ICE)]).unwrap();
+        assert_eq!(messages(&flat), [""; 0]);
+        let at = |x: f64| start_media(&flat.scene, [x, 1.5, 1.7]);
+        assert_eq!([at(0.5), at(2.0), at(5.0)], [0, 1, 0]);
+    }
+}

@@ -64,3 +64,79 @@ fn largest_weight(scene: &FlatScene) -> f64 {
     };
     scene.materials[1..].iter().map(weight).fold(0.0, f64::max)
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::flatten::flatten;
+    use crate::flatten::samples::{STONE, cube, lamp, model, scene_of};
+    use crate::scene::{Background, Falloff, Material, Scene};
+
+    /// A cube of half side 1 of a material that is changed from stone.
+    fn bounds_of(material: impl Fn(&mut Material), scene: impl Fn(&mut Scene)) -> Vec<f32> {
+        let mut sample = scene_of(vec![model("cube", cube(1.0), STONE)]);
+        material(&mut sample.materials[STONE.0]);
+        scene(&mut sample);
+        flatten(&sample).unwrap().scene.radiance_bound
+    }
+
+    fn assert_close(found: f32, expected: f64) {
+        assert!(
+            f64::from(found) >= expected && f64::from(found) <= expected * 1.000_001,
+            "{found} {expected}"
+        );
+    }
+
+    #[test]
+    fn the_series_has_its_closed_form() {
+        let bounds = bounds_of(
+            |stone| {
+                stone.ambient = DVec3::splat(0.2);
+                stone.specular = DVec3::splat(0.25);
+                stone.reflection = DVec3::splat(0.5);
+                stone.transmission = DVec3::splat(0.25);
+            },
+            |scene| {
+                scene.ambient = DVec3::splat(0.5);
+                scene.background = Background::Color(DVec3::new(0.0, 3.0, 0.0));
+                scene.lights = vec![lamp(DVec3::splat(9.0), 2.0, Falloff::None); 2];
+            },
+        );
+        let (local, passed) = (0.5 * 0.2 + 2.0 * 2.0 * (0.5 + 0.25), 0.75_f64);
+        assert_eq!(bounds.len(), 66);
+        for (level, &bound) in bounds.iter().enumerate() {
+            let power = passed.powi(level as i32);
+            assert_close(bound, 3.0 * power + local * (1.0 - power) / (1.0 - passed));
+        }
+    }
+
+    #[test]
+    fn falloff_counts_from_the_nearest_surface() {
+        let bounds = bounds_of(
+            |_| {},
+            |scene| scene.lights = vec![lamp(DVec3::new(0.0, 3.0, 0.0), 8.0, Falloff::InverseSquare)],
+        );
+        assert_close(bounds[1], 8.0 / 4.0 * 0.5);
+    }
+
+    #[test]
+    fn a_light_on_a_surface_gives_a_finite_bound() {
+        let touching = |scene: &mut Scene| scene.lights = vec![lamp(DVec3::X, 1.0, Falloff::InverseSquare)];
+        assert_eq!(bounds_of(|_| {}, touching)[1], f32::MAX);
+        assert_eq!(bounds_of(|stone| stone.diffuse = DVec3::ZERO, touching)[1], 0.0);
+    }
+
+    #[test]
+    fn fresnel_divides_what_a_classic_material_adds() {
+        let glass = |fresnel: bool| {
+            move |stone: &mut Material| {
+                (stone.reflection, stone.transmission) = (DVec3::ONE, DVec3::ONE);
+                (stone.fresnel, stone.ior) = (fresnel, 1.5);
+            }
+        };
+        let white = |scene: &mut Scene| scene.background = Background::Color(DVec3::ONE);
+        assert!(bounds_of(glass(true), white).iter().all(|&bound| bound == 1.0));
+        assert_eq!(bounds_of(glass(false), white)[10], 1024.0);
+    }
+}

@@ -8,11 +8,12 @@ use super::orient::Winding;
 use super::place::{Placed, bounds};
 use super::winding::winding_number;
 
-/// How many points of a shell are asked, at most, whether another holds it.
-const WITNESSES: usize = 8;
+/// How many faces of a shell are asked, at most, whether another holds it.
+const WITNESSES: usize = 64;
 
-/// A winding number farther than this from a whole one leaves doubt: the point lies on the other shell.
-const DOUBT: f64 = 0.25;
+/// Around a closed shell winding numbers are whole, up to rounding, except on the shell itself: one farther
+/// than this from a whole number leaves doubt.
+const DOUBT: f64 = 1e-3;
 
 /// Volumes below this part of the shell's box are rounding: such a shell encloses nothing.
 const LEAST_VOLUME: f64 = 1e-12;
@@ -38,7 +39,7 @@ impl Shell {
 
     /// Whether its faces look into the matter.
     pub(super) fn is_wrong(&self) -> bool {
-        let right = if self.depth % 2 == 0 { 1 } else { -1 };
+        let right = if self.depth.is_multiple_of(2) { 1 } else { -1 };
         self.sign == -right
     }
 
@@ -60,14 +61,14 @@ pub(super) fn find_shells(placed: &Placed, winding: &Winding) -> Vec<Shell> {
     shells
 }
 
-/// The number of other shells that hold a shell, judged at the clearest of a few of its vertices.
+/// The number of other shells that hold a shell, judged at the centre of a face that lies on none of them, or
+/// is the farthest from doubt of those that are asked.
 fn depth(index: usize, shells: &[Shell]) -> u32 {
     let faces = &shells[index].faces;
-    let witnesses =
-        (0..WITNESSES.min(faces.len())).map(|k| faces[k * faces.len() / WITNESSES.min(faces.len())][0]);
+    let step = faces.len().div_ceil(WITNESSES).max(1);
     let mut best = (f64::INFINITY, 0);
-    for witness in witnesses {
-        let (doubt, depth) = ask(witness, index, shells);
+    for [a, b, c] in faces.iter().step_by(step) {
+        let (doubt, depth) = ask((a + b + c) / 3.0, index, shells);
         if doubt < best.0 {
             best = (doubt, depth);
         }

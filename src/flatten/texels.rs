@@ -84,7 +84,10 @@ mod tests {
 
     fn scene_of(pixels: Vec<Pixels>) -> Scene {
         let texture = |pixels| Texture { path: "a.png".into(), width: 2, height: 1, pixels };
-        Scene { textures: pixels.into_iter().map(texture).collect(), ..super::super::tests::empty_scene() }
+        Scene {
+            textures: pixels.into_iter().map(texture).collect(),
+            ..crate::flatten::samples::empty_scene()
+        }
     }
 
     #[test]

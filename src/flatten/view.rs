@@ -58,3 +58,57 @@ pub fn view(
 fn medium(scene: &FlatScene, body: usize) -> u32 {
     scene.bodies[..scene.transmissive_bodies as usize].get(body).map_or(0, |body| body.material)
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::flatten::flatten;
+    use crate::flatten::samples::{ICE, WATER, cube, cuboid, model, scene_of};
+    use crate::layout::{Float, Intersector, Precision};
+
+    const SETTINGS: Settings = Settings {
+        depth: 7,
+        cutoff: 0.01,
+        samples: 3,
+        precision: Precision::F32,
+        float: Float::Strict,
+        intersector: Intersector::Watertight,
+        aovs: false,
+    };
+
+    #[test]
+    fn the_basis_reaches_to_the_edges_of_the_picture() {
+        let scene = scene_of(vec![]);
+        let flat = flatten(&scene).unwrap().scene;
+        let view = view(&scene.camera, &flat, [200, 100], None, &SETTINGS);
+        let close = |found: [f32; 3], expected: [f32; 3]| {
+            assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-6), "{found:?}");
+        };
+        close(view.right, [2.0, 0.0, 0.0]);
+        close(view.up, [0.0, 1.0, 0.0]);
+        close(view.forward, [0.0, 0.0, -1.0]);
+        assert_eq!((view.width, view.height, view.crop), (200, 100, [0, 0, 200, 100]));
+        assert_eq!((view.depth, view.cutoff, view.samples), (7, 0.01, 3));
+        assert_eq!(
+            (view.start_media, view.environment, view.media),
+            (0, Attribute::NONE, Default::default())
+        );
+    }
+
+    #[test]
+    fn media_name_materials_and_the_eye_knows_where_it_is() {
+        let far = cuboid(DVec3::splat(20.0), DVec3::splat(21.0));
+        let mut scene = scene_of(vec![model("far", far, WATER), model("around", cube(6.0), ICE)]);
+        scene.camera.eye = DVec3::new(0.25, 0.5, 5.0);
+        let flat = flatten(&scene).unwrap().scene;
+        let view = view(&scene.camera, &flat, [4, 4], Some([1, 1, 2, 2]), &SETTINGS);
+        assert_eq!((view.start_media, view.crop), (0b10, [1, 1, 2, 2]));
+        let names: Vec<&str> =
+            view.media[0][..3].iter().map(|&row| flat.material_names[row as usize].as_str()).collect();
+        assert_eq!(names, ["water", "ice", "air"]);
+        assert_eq!(view.radiance_bound[16][1], flat.radiance_bound[65]);
+    }
+}

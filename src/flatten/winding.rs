@@ -15,13 +15,21 @@ use crate::layout::{Attribute, FlatScene, Triangle};
 /// Triangles that one thread sums up at a time. Fixed, so that the sum does not depend on the threads.
 const CHUNK: usize = 4096;
 
-/// The signed solid angle of a triangle seen from a point, in (−2π, 2π]: positive where its back is seen, as
+/// Triple products below this part of the product of the lengths are rounding (their bound is a few 2^-53).
+const IN_PLANE: f64 = 1e-14;
+
+/// The signed solid angle of a triangle seen from a point, in (−2π, 2π): positive where its back is seen, as
 /// from inside a body (van Oosterom and Strackee 1983, "The solid angle of a plane triangle", equation 8).
+/// From a point in its plane nothing is seen of it, so that the points of a closed surface lie half inside.
 pub(super) fn solid_angle(point: DVec3, corners: [DVec3; 3]) -> f64 {
     let [a, b, c] = corners.map(|corner| corner - point);
     let (la, lb, lc) = (a.length(), b.length(), c.length());
     let sine = a.dot(b.cross(c));
-    let cosine = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+    let product = la * lb * lc;
+    if sine.abs() <= IN_PLANE * product {
+        return 0.0;
+    }
+    let cosine = product + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
     2.0 * sine.atan2(cosine)
 }
 
@@ -31,8 +39,8 @@ pub(super) fn winding_number(point: DVec3, faces: impl Iterator<Item = [DVec3; 3
     faces.map(|corners| solid_angle(point, corners)).sum::<f64>() / (2.0 * TAU)
 }
 
-/// The media mask at a point: the bit of each transmissive body that holds it. A point on a face is inside
-/// or outside as rounding decides.
+/// The media mask at a point: the bit of each transmissive body that holds it. A point on a face counts as
+/// outside.
 #[must_use]
 pub fn start_media(scene: &FlatScene, eye: [f64; 3]) -> u32 {
     let (count, eye) = (scene.transmissive_bodies.min(MAX_MEDIA) as usize, DVec3::from_array(eye));
@@ -105,6 +113,15 @@ mod tests {
         let angle = solid_angle(DVec3::ZERO, [DVec3::X, DVec3::Y, DVec3::Z]);
         assert!((angle - TAU / 4.0).abs() < 1e-15);
         assert!((solid_angle(DVec3::ZERO, [DVec3::X, DVec3::Z, DVec3::Y]) + TAU / 4.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_face_is_half_inside() {
+        let [o, x, y, z] = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+        let faces = [[o, y, x], [o, z, y], [o, x, z], [x, y, z]];
+        for point in [DVec3::new(0.2, 0.3, 0.0), DVec3::new(0.0, 0.1, 0.7), DVec3::splat(1.0 / 3.0)] {
+            assert!((winding_number(point, faces.into_iter()) - 0.5).abs() < 1e-12, "{point}");
+        }
     }
 
     #[test]

@@ -38,13 +38,15 @@ pub fn resolve<R: Real>(world: &World, ray: &Ray<R>, hit: &Hit<R>) -> Surface<R>
     let face = &world.scene.attributes[hit.id as usize];
     let (v0, v1, v2) = (Vec3::load(tri.v0), Vec3::load(tri.v1), Vec3::load(tri.v2));
     let b0 = R::ONE - hit.b1 - hit.b2;
-    // The point, and a bound on its distance from the face.
+    // The point; how far rounding may put it off the face, and a leaving ray's test of this very face off the point.
     let (p0, p1, p2) = (v0 * b0, v1 * hit.b1, v2 * hit.b2);
     let point = p0 + p1 + p2;
     let size = p0.abs() + p1.abs() + p2.abs();
+    let extent = (v1 - v0).abs() + (v2 - v0).abs();
     let outward = Vec3::load(face.normal);
     let face_normal = if hit.front { outward } else { -outward };
-    let offset = dot3(face_normal.abs(), size) * (R::of(SPAWN_ROUNDOFFS) * R::of(R::ROUNDOFF));
+    let reach = dot3(face_normal.abs(), size) + (extent.x + extent.y + extent.z);
+    let offset = reach * (R::of(SPAWN_ROUNDOFFS) * R::of(R::ROUNDOFF));
     let mut surface = Surface {
         point,
         offset,

@@ -75,9 +75,11 @@ shared! {
     /// Slabs are widened by this much (2^-19) of the distance to the farthest corner of the scene's box: more
     /// than the rounding of the slab and triangle tests, so that no box misses what its triangle hits.
     SLAB_PADDING: f64 = 1.907_348_632_812_5e-6;
-    /// Rays leave a surface by this many unit roundoffs of its corners' weighted coordinates, along the normal:
-    /// 7 bound the rounding of the hit point (Pharr, Jakob, Humphreys, 4th ed., section 6.8.5), the rest that of
-    /// the leaving ray's plane test.
+    /// Rays leave a surface along its normal by this many unit roundoffs of (1) the face's coordinates weighted by the
+    /// hit's barycentrics: 7 bound the rounding of the hit point (Pharr, Jakob, Humphreys, 4th ed., section 6.8.5); and
+    /// (2) the face's extent: what the next test of this very face subtracts, shears and weights; at a grazing angle
+    /// its error in t grows as the distance to the plane along the ray does, so that a bound along the normal serves
+    /// every angle.
     SPAWN_ROUNDOFFS: f64 = 16.0;
 
     /// Weyl steps of the sample pattern, as fractions of 2^32: 1/φ₂ and 1/φ₂² of the plastic number φ₂

@@ -6,6 +6,7 @@ use toml::Spanned;
 use super::document::CameraTable;
 use super::number::Vector;
 use super::source::Source;
+use super::table::Table;
 use super::{Camera, Diagnostic};
 
 /// How far a given basis may be from orthonormal, per scalar product.
@@ -15,7 +16,7 @@ const MIN_UP_SINE: f64 = 1e-6;
 
 /// Turn the table into a camera. A camera with a basis of its own has its pivot at distance 1 until the models
 /// are known.
-pub(super) fn camera(table: &Spanned<CameraTable>, source: &Source) -> Result<Camera, Diagnostic> {
+pub(super) fn camera(table: &Spanned<Table<CameraTable>>, source: &Source) -> Result<Camera, Diagnostic> {
     let span = table.span();
     let table = table.get_ref();
     match (&table.target, &table.right, &table.up, &table.forward) {
@@ -110,7 +111,7 @@ mod tests {
         camera(&document.camera.unwrap(), &source)
     }
 
-    fn fault(keys: &str) -> (String, usize, usize) {
+    fn fault(keys: &str) -> (String, u32, u32) {
         let diagnostic = read(keys).unwrap_err();
         let place = diagnostic.location.unwrap();
         (diagnostic.message, place.line, place.column)

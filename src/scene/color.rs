@@ -13,7 +13,6 @@ pub(super) struct Color(pub(super) DVec3);
 
 impl Color {
     pub(super) const WHITE: Self = Self(DVec3::ONE);
-    pub(super) const BLACK: Self = Self(DVec3::ZERO);
 }
 
 /// Linear value of an 8-bit sRGB code (IEC 61966-2-1, section 5.2).

@@ -87,3 +87,68 @@ pub(super) fn material() -> Material {
         absorption: DVec3::ZERO,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use glam::DAffine3;
+
+    use super::*;
+    use crate::scene::{Mesh, Normals, Repeat};
+
+    fn model(positions: &[[f64; 3]], repeat: Repeat) -> Model {
+        let positions = positions.iter().map(|&position| DVec3::from_array(position)).collect();
+        Model {
+            name: String::new(),
+            mesh: Arc::new(Mesh { positions, ..Mesh::default() }),
+            materials: Vec::new(),
+            priority: 0,
+            world_from_object: DAffine3::from_translation(DVec3::X * 10.0),
+            normals: Normals::File,
+            repeat,
+            location: None,
+        }
+    }
+
+    /// Sine of the widest angle between a point of the ball and the direction of view.
+    fn half_view(camera: &Camera, ball: Ball) -> f64 {
+        ball.radius / (ball.center - camera.eye).length()
+    }
+
+    #[test]
+    fn the_ball_touches_the_farthest_point() {
+        let ball =
+            bounding_ball(&[model(&[[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.5, 0.0]], Repeat::default())]);
+        assert_eq!(ball.center, DVec3::new(10.0, 0.25, 0.0));
+        assert!((ball.radius - 1.0625_f64.sqrt()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn copies_are_inside_the_ball() {
+        let repeat = Repeat { count: [3, 1, 1], step: DVec3::new(-2.0, 0.0, 0.0) };
+        let ball = bounding_ball(&[model(&[[0.0; 3]], repeat)]);
+        assert_eq!(ball, Ball { center: DVec3::X * 8.0, radius: 2.0 });
+    }
+
+    #[test]
+    fn everything_is_in_view() {
+        for radius in [1e-6, 1.0, 1e6] {
+            let ball = Ball { center: DVec3::new(3.0, -2.0, 1.0), radius };
+            let camera = camera(ball);
+            let sine = half_view(&camera, ball);
+            assert!(sine < (camera.fov_y / 2.0).to_radians().sin() && sine > 0.25, "{sine}");
+            assert!(
+                (camera.eye + camera.forward * camera.target_distance - ball.center).length()
+                    < 1e-9 * radius.max(1.0)
+            );
+            assert!((camera.right.cross(camera.up) + camera.forward).length() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn nothing_at_all_still_gives_a_camera() {
+        let camera = camera(bounding_ball(&[]));
+        assert!(camera.eye.is_finite() && camera.target_distance > 0.0);
+    }
+}

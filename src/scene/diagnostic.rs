@@ -20,11 +20,11 @@ pub struct Location {
     /// The file.
     pub file: PathBuf,
     /// From 1.
-    pub line: usize,
+    pub line: u32,
     /// From 1, in characters.
-    pub column: usize,
+    pub column: u32,
     /// How many characters to underline, ≥ 1.
-    pub length: usize,
+    pub length: u32,
     /// The text of the line, without its end; of a very long line only the beginning.
     pub text: String,
 }
@@ -95,21 +95,21 @@ impl Location {
         let end = byte_of_char(&self.text, self.column.saturating_sub(1).saturating_add(self.length));
         Snippet::source(&self.text)
             .path(self.file.to_string_lossy())
-            .line_start(self.line)
+            .line_start(self.line as usize)
             .annotation(AnnotationKind::Primary.span(start..end))
     }
 }
 
 /// Where the character number `count` starts; the end of the text if it is shorter.
-fn byte_of_char(text: &str, count: usize) -> usize {
-    text.char_indices().nth(count).map_or(text.len(), |(byte, _)| byte)
+fn byte_of_char(text: &str, count: u32) -> usize {
+    text.char_indices().nth(count as usize).map_or(text.len(), |(byte, _)| byte)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn location(text: &str, column: usize, length: usize) -> Location {
+    fn location(text: &str, column: u32, length: u32) -> Location {
         Location { file: "glass.toml".into(), line: 12, column, length, text: text.into() }
     }
 
@@ -133,7 +133,7 @@ mod tests {
 
     #[test]
     fn places_beyond_the_line_do_not_panic() {
-        for (text, column, length) in [("", 1, 1), ("abc", 4, 1), ("abc", 900, usize::MAX)] {
+        for (text, column, length) in [("", 1, 1), ("abc", 4, 1), ("abc", 900, u32::MAX)] {
             let rendered = Diagnostic::error("odd").at(location(text, column, length)).render(true);
             assert!(rendered.contains("glass.toml"), "{rendered}");
         }

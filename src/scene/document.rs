@@ -11,6 +11,7 @@ use toml::Spanned;
 use super::color::Color;
 use super::normals::NormalsKey;
 use super::number::{AboveZero, Any, NotNegative, Number, Unit, Vector, ViewAngle, Whole, Wholes};
+use super::table::Table;
 use super::triple::Triple;
 
 /// The whole file.
@@ -18,18 +19,18 @@ use super::triple::Triple;
 #[serde(deny_unknown_fields)]
 pub(super) struct Document {
     /// Without it the models are framed.
-    pub(super) camera: Option<Spanned<CameraTable>>,
+    pub(super) camera: Option<Spanned<Table<CameraTable>>>,
     #[serde(default)]
-    pub(super) render: RenderTable,
-    pub(super) ambient: Option<AmbientTable>,
+    pub(super) render: Table<RenderTable>,
+    pub(super) ambient: Option<Table<AmbientTable>>,
     /// Without it everything behind the scene is black.
-    pub(super) background: Option<Spanned<BackgroundTable>>,
+    pub(super) background: Option<Spanned<Table<BackgroundTable>>>,
     #[serde(default)]
-    pub(super) light: Vec<LightTable>,
+    pub(super) light: Vec<Table<LightTable>>,
     #[serde(default)]
-    pub(super) material: BTreeMap<Spanned<String>, MaterialTable>,
+    pub(super) material: BTreeMap<Spanned<String>, Table<MaterialTable>>,
     #[serde(default)]
-    pub(super) model: Vec<Spanned<ModelTable>>,
+    pub(super) model: Vec<Spanned<Table<ModelTable>>>,
 }
 
 /// `[camera]`: `target` (and `up`), or all of `right`, `up` and `forward`.
@@ -116,11 +117,11 @@ pub(super) enum FalloffKey {
 #[serde(deny_unknown_fields)]
 pub(super) struct MaterialTable {
     /// ka.
-    pub(super) ambient: Option<AmbientTerm>,
+    pub(super) ambient: Option<Table<AmbientTerm>>,
     /// kd.
-    pub(super) diffuse: Option<DiffuseTerm>,
+    pub(super) diffuse: Option<Table<DiffuseTerm>>,
     /// ks.
-    pub(super) specular: Option<SpecularTerm>,
+    pub(super) specular: Option<Table<SpecularTerm>>,
     /// kr, for all channels or each.
     #[serde(default)]
     pub(super) reflection: Triple<NotNegative>,
@@ -202,7 +203,7 @@ pub(super) struct ModelTable {
     pub(super) translate: Vector<3>,
     #[serde(default)]
     pub(super) normals: NormalsKey,
-    pub(super) repeat: Option<Spanned<RepeatTable>>,
+    pub(super) repeat: Option<Spanned<Table<RepeatTable>>>,
 }
 
 /// `repeat` of a model.
@@ -217,12 +218,12 @@ pub(super) struct RepeatTable {
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Shape {
-    Sphere(SphereTable),
-    Box(BoxTable),
-    RoundedBox(RoundedBoxTable),
-    Plane(PlaneTable),
-    Cylinder(CylinderTable),
-    Torus(TorusTable),
+    Sphere(Table<SphereTable>),
+    Box(Table<BoxTable>),
+    RoundedBox(Table<RoundedBoxTable>),
+    Plane(Table<PlaneTable>),
+    Cylinder(Table<CylinderTable>),
+    Torus(Table<TorusTable>),
 }
 
 /// `sphere`: 8·4^`level` triangles, poles on the y axis.

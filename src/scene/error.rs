@@ -47,11 +47,12 @@ pub(super) struct Faults {
 
 impl Faults {
     /// Keep a value, or note why there is none.
-    pub(super) fn keep<T>(&mut self, result: Result<T, SceneError>) -> Option<T> {
-        result.map_err(|error| error.diagnostics.into_iter().for_each(|fault| self.note(fault))).ok()
+    pub(super) fn keep<T, E: Into<SceneError>>(&mut self, result: Result<T, E>) -> Option<T> {
+        result.map_err(|error| error.into().diagnostics.into_iter().for_each(|fault| self.note(fault))).ok()
     }
 
-    fn note(&mut self, fault: Diagnostic) {
+    /// Note a fault.
+    pub(super) fn note(&mut self, fault: Diagnostic) {
         if self.found.len() < MAX_FAULTS && !self.found.contains(&fault) {
             self.found.push(fault);
         }
@@ -71,9 +72,9 @@ mod tests {
     #[test]
     fn gathered_faults_are_all_displayed() {
         let mut faults = Faults::default();
-        assert_eq!(faults.keep(Ok(1)), Some(1));
-        assert_eq!(faults.keep::<u8>(Err(Diagnostic::error("first").into())), None);
-        assert_eq!(faults.keep::<u8>(Err(Diagnostic::error("second").into())), None);
+        assert_eq!(faults.keep(Ok::<_, SceneError>(1)), Some(1));
+        assert_eq!(faults.keep::<u8, _>(Err(Diagnostic::error("first"))), None);
+        assert_eq!(faults.keep::<u8, _>(Err(Diagnostic::error("second"))), None);
         let error = faults.into_result().map_err(|error| error.to_string());
         assert_eq!(error, Err("error: first\n\nerror: second".into()));
     }
@@ -82,7 +83,7 @@ mod tests {
     fn a_fault_met_twice_is_told_once_and_a_flood_is_cut() {
         let mut faults = Faults::default();
         for number in 0..100 {
-            faults.keep::<u8>(Err(Diagnostic::error(format!("fault {}", number / 2)).into()));
+            faults.note(Diagnostic::error(format!("fault {}", number / 2)));
         }
         let error = faults.into_result().unwrap_err();
         assert_eq!(error.diagnostics().len(), MAX_FAULTS);

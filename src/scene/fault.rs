@@ -9,22 +9,54 @@ pub(super) fn parse(source: &Source) -> Result<Document, SceneError> {
     toml::from_str(&source.text).map_err(|error| diagnose(&error, source).into())
 }
 
-/// Turn the reader's complaint into a message with a hint. A complaint of this library may carry its hint in
-/// a second line.
+/// Turn the reader's complaint into a message with a hint.
 fn diagnose(error: &toml::de::Error, source: &Source) -> Diagnostic {
-    let (message, hint) = match error.message().split_once('\n') {
-        Some((message, hint)) => (message.to_owned(), Some(hint.to_owned())),
-        None => (error.message().replace("missing field", "missing key"), None),
-    };
-    let diagnostic = match unknown_name(&message) {
-        Some((kind, name, known)) => {
-            Diagnostic::error(format!("unknown {kind} `{name}`")).hint(suggest(name, &known))
-        }
-        None => Diagnostic { hint: hint.or_else(|| advise(&message)), ..Diagnostic::error(message) },
-    };
+    let (message, hint) = reword(error.message());
+    let diagnostic = Diagnostic { hint, ..Diagnostic::error(message) };
     match error.span() {
         Some(span) => diagnostic.at(source.locate(span)),
         None => diagnostic,
+    }
+}
+
+/// Complaints that speak of Rust: a part of them, what to say instead, and a hint.
+const REWORDED: [(&str, &str, &str); 5] = [
+    (
+        "unit variant, expected newtype variant",
+        "a shape needs its measures",
+        "write them as a table, like shape = { sphere = { radius = 1 } }",
+    ),
+    (
+        "wanted exactly 1 element",
+        "a model has exactly one shape",
+        "write one, like shape = { sphere = { radius = 1 } }",
+    ),
+    ("wanted string or table", "this is not a word", "write a word between quotes"),
+    (
+        "map, expected a sequence",
+        "this table may occur several times",
+        "give it double brackets, like [[light]]",
+    ),
+    ("sequence, expected a table", "this table occurs once only", "give it single brackets, like [camera]"),
+];
+
+/// Say a complaint in a scene's terms: the message and its hint. A complaint of this library may carry its
+/// hint in a second line.
+fn reword(complaint: &str) -> (String, Option<String>) {
+    if let Some((kind, name, known)) = unknown_name(complaint) {
+        return (format!("unknown {kind} `{name}`"), Some(suggest(name, &known)));
+    }
+    if let Some((_, message, hint)) = REWORDED.iter().find(|(part, ..)| complaint.contains(part)) {
+        return ((*message).into(), Some((*hint).into()));
+    }
+    match complaint.split_once('\n') {
+        Some((message, hint)) => (message.into(), Some(hint.into())),
+        None => (
+            complaint
+                .replace("missing field", "missing key")
+                .replace("expected i32", "expected a 32-bit integer"),
+            None,
+        ),
     }
 }
 
@@ -38,29 +70,21 @@ fn unknown_name(message: &str) -> Option<(&'static str, &str, Vec<&str>)> {
     Some((kind, name, quoted.collect()))
 }
 
-/// Advice for common slips, by the reader's words.
-fn advise(message: &str) -> Option<String> {
-    if message.contains("map, expected a sequence") {
-        Some("a table that may occur several times has double brackets, like [[light]]".into())
-    } else if message.contains("sequence, expected struct") {
-        Some("a table that occurs once has single brackets, like [camera]".into())
-    } else {
-        None
-    }
-}
+/// The most known names that a hint lists.
+const MAX_LISTED: usize = 16;
 
-/// "did you mean …?" where a known name is near, and all the known names.
+/// "did you mean …?" where a known name is near, and the known names.
 pub(super) fn suggest(name: &str, known: &[&str]) -> String {
+    let name = name.to_lowercase();
     let near = known
         .iter()
-        .map(|candidate| (strsim::osa_distance(&name.to_lowercase(), candidate), candidate))
+        .map(|candidate| (strsim::osa_distance(&name, &candidate.to_lowercase()), candidate))
         .filter(|(distance, candidate)| *distance <= candidate.chars().count().div_ceil(3))
         .min_by_key(|(distance, _)| *distance);
-    let list = known.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
-    match near {
-        Some((_, candidate)) => format!("did you mean `{candidate}`? known here: {list}"),
-        None => format!("known here: {list}"),
-    }
+    let question = near.map_or(String::new(), |(_, candidate)| format!("did you mean `{candidate}`? "));
+    let listed: Vec<_> = known.iter().take(MAX_LISTED).map(|name| format!("`{name}`")).collect();
+    let more = if known.len() > MAX_LISTED { ", …" } else { "" };
+    format!("{question}known here: {}{more}", listed.join(", "))
 }
 
 #[cfg(test)]
@@ -70,7 +94,7 @@ mod tests {
 
     use super::*;
 
-    fn fault(text: &str) -> (String, usize, usize, String) {
+    fn fault(text: &str) -> (String, u32, u32, String) {
         let source = Source::new(Path::new("a.toml"), text.into());
         let error = parse(&source).unwrap_err();
         let diagnostic = &error.diagnostics()[0];
@@ -99,6 +123,15 @@ mod tests {
     }
 
     #[test]
+    fn long_lists_are_cut_and_case_does_not_matter() {
+        let names: Vec<_> = (0..40).map(|number| format!("Glass{number}")).collect();
+        let known: Vec<_> = names.iter().map(String::as_str).collect();
+        let hint = suggest("glass39x", &known);
+        assert!(hint.starts_with("did you mean `Glass39`? known here: `Glass0`, "), "{hint}");
+        assert!(hint.ends_with("`Glass15`, …"), "{hint}");
+    }
+
+    #[test]
     fn unknown_values_and_shapes_are_located() {
         let (message, line, column, hint) = fault("[[light]]\nposition = [0, 0, 1]\nfalloff = \"square\"");
         assert_eq!((message.as_str(), line, column), ("unknown value `square`", 3, 11));
@@ -115,6 +148,32 @@ mod tests {
         let (_, line, _, hint) = fault("[light]\nposition = [0, 0, 1]");
         assert_eq!(line, 1);
         assert!(hint.contains("[[light]]"), "{hint}");
+    }
+
+    #[test]
+    fn complaints_speak_of_scenes_not_of_rust() {
+        for (text, message, line, column) in [
+            ("[[model]]\nshape = 'sphere'", "a shape needs its measures", 2, 9),
+            ("[[model]]\nshape = {}", "a model has exactly one shape", 2, 9),
+            ("[[light]]\nposition = [0, 0, 1]\nfalloff = 3", "this is not a word", 3, 11),
+            ("[[camera]]\neye = [0, 0, 1]", "this table occurs once only", 1, 1),
+            ("camera = 3", "invalid type: integer `3`, expected a table", 1, 10),
+            (
+                "[material.a]\ndiffuse = '#ff0000'",
+                "invalid type: string \"#ff0000\", expected a table",
+                2,
+                11,
+            ),
+            (
+                "[[model]]\npriority = 3000000000",
+                "invalid value: integer `3000000000`, expected a 32-bit integer",
+                2,
+                12,
+            ),
+        ] {
+            let (found, at_line, at_column, _) = fault(text);
+            assert_eq!((found.as_str(), at_line, at_column), (message, line, column), "{text}");
+        }
     }
 
     #[test]

@@ -3,13 +3,15 @@
 use std::collections::HashSet;
 use std::path::Path;
 
+use glam::DVec3;
 use toml::Spanned;
 
-use super::document::{Document, RenderTable};
+use super::document::{CameraTable, Document, RenderTable};
 use super::error::Faults;
 use super::material::{self, Materials};
-use super::model::{Models, Surroundings, stem};
+use super::model::{Models, Shared, stem};
 use super::source::Source;
+use super::table::Table;
 use super::texture::Textures;
 use super::{
     Background, Camera, Diagnostic, Model, Normals, RenderDefaults, Repeat, Scene, SceneError, camera,
@@ -24,6 +26,15 @@ impl Scene {
     ///
     /// # Errors
     /// Every fault found in the files, each with its place and, where there is one, a hint.
+    ///
+    /// # Examples
+    /// ```no_run
+    /// # use snellius::scene::Scene;
+    /// match Scene::load("scenes/ice.toml".as_ref()) {
+    ///     Ok(scene) => println!("{} models", scene.models.len()),
+    ///     Err(error) => eprintln!("{error}"),
+    /// }
+    /// ```
     pub fn load(path: &Path) -> Result<Self, SceneError> {
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         match extension.as_str() {
@@ -37,67 +48,58 @@ impl Scene {
 }
 
 /// Read a scene file.
-pub(super) fn from_toml(source: &Source) -> Result<Scene, SceneError> {
+fn from_toml(source: &Source) -> Result<Scene, SceneError> {
     let document = fault::parse(source)?;
     let directory = source.path.parent().unwrap_or(Path::new(""));
+    let mut shared =
+        Shared { source, directory, materials: Materials::default(), textures: Textures::default() };
     let mut faults = Faults::default();
-    let mut textures = Textures::default();
-    let given_camera = document
-        .camera
+    let camera = document.camera.as_ref().map(|table| faults.keep(camera::camera(table, source)));
+    let background = document
+        .background
         .as_ref()
-        .and_then(|table| faults.keep(camera::camera(table, source).map_err(Into::into)));
-    let background = document.background.as_ref().and_then(|table| {
-        let background = surroundings::background(table, source, directory, &mut textures);
-        faults.keep(background.map_err(Into::into))
-    });
-    let mut materials = Materials::default();
+        .map(|table| faults.keep(surroundings::background(table, source, directory, &mut shared.textures)));
     for (name, table) in material::in_file_order(&document) {
-        faults.keep(materials.define(name, table, source, directory, &mut textures));
+        faults.keep(shared.materials.define(name, table, source, directory, &mut shared.textures));
     }
     let mut models = Models::default();
     for table in &document.model {
-        let mut scene =
-            Surroundings { source, directory, materials: &mut materials, textures: &mut textures };
-        faults.keep(models.define(table, &mut scene));
+        faults.keep(models.define(table, &mut shared));
     }
     if document.model.is_empty() {
-        let fault = Diagnostic::error(format!("{} has no models", source.path.display()));
-        faults.keep::<()>(Err(fault
-            .hint("add one: [[model]] with a `mesh` or a `shape`, and a `material`")
-            .into()));
+        let fault = Diagnostic::error("the scene has no models").at(source.locate(0..0));
+        faults.note(fault.hint("add one: [[model]] with a `mesh` or a `shape`, and a `material`"));
     }
     faults.into_result()?;
-    let mut warnings = materials.warnings;
+    let Materials { list: materials, mut warnings, .. } = shared.materials;
     warnings.extend(unused_materials(&document, source));
     Ok(Scene {
         source: source.path.clone(),
-        camera: aim(
-            given_camera,
-            document.camera.as_ref().is_some_and(|c| c.get_ref().target.is_some()),
-            &models.list,
-        ),
+        camera: aim(camera.flatten(), document.camera.as_ref(), &models.list),
         render: render_defaults(&document.render),
         ambient: surroundings::ambient(document.ambient.as_ref()),
-        background: background.unwrap_or(Background::Color(super::color::Color::BLACK.0)),
-        lights: document.light.iter().map(surroundings::light).collect(),
-        materials: materials.list,
-        textures: textures.list,
+        background: background.flatten().unwrap_or(Background::Color(DVec3::ZERO)),
+        lights: document.light.iter().map(|table| surroundings::light(table)).collect(),
+        materials,
+        textures: shared.textures.list,
         models: models.list,
         warnings,
     })
 }
 
-/// The camera as given, or a view of the models. A camera without a target gets its pivot where it passes the
-/// middle of the models.
-fn aim(given: Option<Camera>, has_target: bool, models: &[Model]) -> Camera {
+/// The camera as given, or a view of the models. A camera with a basis of its own gets its pivot where it
+/// passes the middle of the models.
+fn aim(given: Option<Camera>, table: Option<&Spanned<Table<CameraTable>>>, models: &[Model]) -> Camera {
+    let has_target = table.is_some_and(|table| table.get_ref().target.is_some());
     match given {
+        None => default_view::camera(default_view::bounding_ball(models)),
         Some(camera) if has_target => camera,
         Some(camera) => {
-            let distance = (default_view::bounding_ball(models).center - camera.eye).dot(camera.forward);
+            let middle = default_view::bounding_ball(models).center;
+            let distance = (middle - camera.eye).dot(camera.forward);
             let target_distance = if distance > 0.0 { distance } else { camera.target_distance };
             Camera { target_distance, ..camera }
         }
-        None => default_view::camera(default_view::bounding_ball(models)),
     }
 }
 
@@ -155,3 +157,7 @@ fn from_mesh(path: &Path) -> Result<Scene, SceneError> {
         warnings: materials.warnings,
     })
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests;

@@ -136,9 +136,9 @@ impl Materials {
                 }
             };
             if illumination::ignores_dissolve(&mtl) {
-                let message = format!("material `{}` of {} is shown opaque", mtl.name, path.display());
-                let hint = "its illumination model has no transparency; `illum` 4, 6, 7 and 9 have";
-                self.warnings.push(Diagnostic::warning(message).hint(hint));
+                let warning = Diagnostic::warning(format!("material `{}` is shown opaque", mtl.name))
+                    .hint("its illumination model has no transparency; `illum` 4, 6, 7 and 9 have");
+                self.warnings.push(Diagnostic { location: mtl.location.clone(), ..warning });
             }
             let id = self.add(illumination::material(&mtl, texture));
             table.insert(mtl.name, id);
@@ -150,7 +150,7 @@ impl Materials {
 
 /// The materials of the document, in the order of the file.
 pub(super) fn in_file_order(document: &Document) -> Vec<(&Spanned<String>, &MaterialTable)> {
-    let mut materials: Vec<_> = document.material.iter().collect();
+    let mut materials: Vec<_> = document.material.iter().map(|(name, table)| (name, &**table)).collect();
     materials.sort_by_key(|(name, _)| name.span().start);
     materials
 }

@@ -29,6 +29,7 @@ mod shapes;
 mod source;
 mod statement;
 mod surroundings;
+mod table;
 mod texture;
 mod triple;
 

@@ -11,13 +11,14 @@ use super::document::{ModelTable, RepeatTable, Shape};
 use super::material::Materials;
 use super::obj::{self, Obj};
 use super::source::Source;
+use super::table::Table;
 use super::texture::Textures;
 use super::{Diagnostic, MaterialId, Mesh, Model, Repeat, SceneError};
 
 /// The most triangles of a scene, copies included: a bound on memory, not on devices.
 const MAX_TRIANGLES: u64 = 1 << 25;
 
-/// What models share while they are read.
+/// The models read so far.
 #[derive(Debug, Default)]
 pub(super) struct Models {
     /// In file order.
@@ -36,27 +37,27 @@ struct LoadedMesh {
     obj: Arc<Obj>,
 }
 
-/// What a model needs of the rest of the scene.
-pub(super) struct Surroundings<'a> {
+/// What the parts of a scene file share while they are read.
+pub(super) struct Shared<'a> {
     pub(super) source: &'a Source,
     pub(super) directory: &'a Path,
-    pub(super) materials: &'a mut Materials,
-    pub(super) textures: &'a mut Textures,
+    pub(super) materials: Materials,
+    pub(super) textures: Textures,
 }
 
 impl Models {
     /// Add the model of a table.
     pub(super) fn define(
         &mut self,
-        table: &Spanned<ModelTable>,
-        scene: &mut Surroundings<'_>,
+        table: &Spanned<Table<ModelTable>>,
+        scene: &mut Shared<'_>,
     ) -> Result<(), SceneError> {
         let location = scene.source.locate(table.span());
         let place = location.clone();
         let table = table.get_ref();
         let (name, mesh, materials) = match (&table.mesh, &table.shape) {
-            (Some(file), None) => self.from_file(file, table, scene)?,
-            (None, Some(shape)) => from_shape(shape, table, scene)?,
+            (Some(file), None) => self.of_file(file, table, scene)?,
+            (None, Some(shape)) => of_shape(shape, table, scene)?,
             (Some(_), Some(shape)) => {
                 let place = scene.source.locate(shape.span());
                 return Err(Diagnostic::error("the model has both a mesh and a shape").at(place).into());
@@ -97,11 +98,11 @@ impl Models {
         Ok((loaded.mesh, loaded.obj))
     }
 
-    fn from_file(
+    fn of_file(
         &mut self,
         file: &Spanned<String>,
         table: &ModelTable,
-        scene: &mut Surroundings<'_>,
+        scene: &mut Shared<'_>,
     ) -> Result<(String, Arc<Mesh>, Vec<MaterialId>), SceneError> {
         let path = scene.directory.join(file.get_ref());
         let place = || scene.source.locate(file.span());
@@ -109,7 +110,7 @@ impl Models {
         let (mesh, obj) = self.read(&path)?;
         let materials = match &table.material {
             Some(name) => vec![scene.materials.named(name, scene.source)?; obj.slots.len()],
-            None => scene.materials.of_mesh(&obj, &path, scene.textures, |_| {
+            None => scene.materials.of_mesh(&obj, &path, &mut scene.textures, |_| {
                 Err(Diagnostic::error(format!("{} has faces without a material", path.display()))
                     .at(place())
                     .hint("give the model a `material`"))
@@ -143,10 +144,10 @@ pub(super) fn stem(path: &Path) -> String {
     path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
-fn from_shape(
+fn of_shape(
     shape: &Spanned<Shape>,
     table: &ModelTable,
-    scene: &mut Surroundings<'_>,
+    scene: &mut Shared<'_>,
 ) -> Result<(String, Arc<Mesh>, Vec<MaterialId>), SceneError> {
     let place = || scene.source.locate(shape.span());
     let Some(name) = &table.material else {
@@ -174,7 +175,7 @@ fn transform(table: &ModelTable) -> DAffine3 {
     )
 }
 
-fn repeat(table: Option<&Spanned<RepeatTable>>, source: &Source) -> Result<Repeat, Diagnostic> {
+fn repeat(table: Option<&Spanned<Table<RepeatTable>>>, source: &Source) -> Result<Repeat, Diagnostic> {
     let Some(spanned) = table else { return Ok(Repeat::default()) };
     let (count, step) = (spanned.get_ref().count.values(), DVec3::from(spanned.get_ref().step));
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
@@ -213,4 +214,49 @@ pub(super) fn world_bounds(model: &Model) -> [DVec3; 2] {
         bounds = [bounds[0].min(placed), bounds[1].max(placed)];
     }
     [bounds[0] + last.min(DVec3::ZERO), bounds[1] + last.max(DVec3::ZERO)]
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::scene::{Normals, fault};
+
+    fn table(keys: &str) -> ModelTable {
+        let source = Source::new(Path::new("a.toml"), format!("[[model]]\n{keys}"));
+        fault::parse(&source).unwrap().model.remove(0).into_inner().0
+    }
+
+    #[test]
+    fn a_model_is_scaled_then_turned_about_x_y_z_then_moved() {
+        let world_from_object =
+            transform(&table("scale = [2, 1, 1]\nrotate = [90, 0, 90]\ntranslate = [0, 0, 5]"));
+        let placed = |point| world_from_object.transform_point3(point);
+        assert!((placed(DVec3::X) - DVec3::new(0.0, 2.0, 5.0)).length() < 1e-15);
+        assert!((placed(DVec3::Y) - DVec3::new(0.0, 0.0, 6.0)).length() < 1e-15);
+        assert!((placed(DVec3::Z) - DVec3::new(1.0, 0.0, 5.0)).length() < 1e-15);
+    }
+
+    #[test]
+    fn bounds_enclose_every_copy() {
+        let mesh = Mesh { positions: vec![DVec3::ZERO, DVec3::ONE], ..Mesh::default() };
+        let model = Model {
+            name: String::new(),
+            mesh: Arc::new(mesh),
+            materials: Vec::new(),
+            priority: 0,
+            world_from_object: DAffine3::IDENTITY,
+            normals: Normals::File,
+            repeat: Repeat { count: [3, 2, 1], step: DVec3::new(2.0, -1.0, 9.0) },
+            location: None,
+        };
+        assert_eq!(world_bounds(&model), [DVec3::new(0.0, -1.0, 0.0), DVec3::new(5.0, 1.0, 1.0)]);
+    }
+
+    #[test]
+    fn namesakes_are_numbered() {
+        let mut models = Models::default();
+        let names = ["box", "ball", "box", "box"].map(|name| models.unique(name.into()));
+        assert_eq!(names, ["box", "ball", "box 2", "box 3"]);
+    }
 }

@@ -5,16 +5,19 @@
 
 use glam::DVec3;
 
-use super::SceneError;
 use super::number::{AboveZero, NotNegative, Range};
-use super::obj::Reference;
+use super::obj::{self, Reference};
 use super::source::Source;
 use super::statement::{Statement, Statements};
+use super::{Location, SceneError};
 
 /// A material as written; `None` where the file is silent.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Mtl {
+    /// newmtl.
     pub(super) name: String,
+    /// Where the name is written.
+    pub(super) location: Option<Location>,
     /// Ka.
     pub(super) ambient: Option<DVec3>,
     /// Kd.
@@ -43,8 +46,8 @@ pub(super) fn parse(source: &Source) -> Result<Vec<Mtl>, SceneError> {
     let mut materials: Vec<Mtl> = Vec::new();
     for statement in Statements::new(source) {
         if statement.keyword == "newmtl" {
-            let name = name(&statement)?;
-            materials.push(Mtl { name, ..Mtl::default() });
+            let Reference { name, location } = obj::reference(&statement)?;
+            materials.push(Mtl { name, location: Some(location), ..Mtl::default() });
         } else if let Some(material) = materials.last_mut() {
             read(material, &statement)?;
         } else if KEYWORDS.contains(&statement.keyword) {
@@ -75,13 +78,6 @@ fn read(material: &mut Mtl, statement: &Statement<'_>) -> Result<(), SceneError>
         _ => {}
     }
     Ok(())
-}
-
-fn name(statement: &Statement<'_>) -> Result<String, SceneError> {
-    if statement.rest.is_empty() {
-        return Err(statement.fault(statement.keyword, "`newmtl` needs a name").into());
-    }
-    Ok(statement.rest.to_owned())
 }
 
 /// Read `r [g b]`, linear; one number is a grey.
@@ -119,10 +115,9 @@ fn fraction(statement: &Statement<'_>) -> Result<f64, SceneError> {
 }
 
 fn illumination(statement: &Statement<'_>) -> Result<u8, SceneError> {
-    let model = statement.rest.parse().ok().filter(|model| *model <= 10);
-    model.ok_or_else(|| {
-        let fault =
-            statement.fault(statement.rest, format!("`{}` is not an illumination model", statement.rest));
+    let word = statement.words().next().unwrap_or(statement.keyword);
+    word.parse().ok().filter(|model| *model <= 10).ok_or_else(|| {
+        let fault = statement.fault(word, format!("`{word}` is not an illumination model"));
         fault.hint("`illum` is a whole number from 0 to 10").into()
     })
 }
@@ -133,10 +128,7 @@ fn texture(statement: &Statement<'_>) -> Result<Reference, SceneError> {
         let fault = statement.fault(statement.rest, "options of `map_Kd` are not supported");
         return Err(fault.hint("write the file's name alone; texture coordinates repeat").into());
     }
-    if statement.rest.is_empty() {
-        return Err(statement.fault(statement.keyword, "`map_Kd` needs a file name").into());
-    }
-    Ok(Reference { name: statement.rest.to_owned(), location: statement.locate(statement.rest) })
+    obj::reference(statement)
 }
 
 #[cfg(test)]
@@ -183,7 +175,7 @@ mod tests {
             ("newmtl a\nTr nan", "NaN is not a usable number", 2, 4),
             ("newmtl a\nillum 11", "`11` is not an illumination model", 2, 7),
             ("newmtl a\nmap_Kd -s 2 2 2 a.png", "options of `map_Kd` are not supported", 2, 8),
-            ("newmtl a\nmap_Kd", "`map_Kd` needs a file name", 2, 1),
+            ("newmtl a\nmap_Kd", "`map_Kd` needs a name", 2, 1),
         ] {
             let error = read(text).unwrap_err();
             let diagnostic = &error.diagnostics()[0];

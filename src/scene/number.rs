@@ -38,12 +38,15 @@ pub(super) trait Range {
 
     /// Accept a finite number of this range.
     fn check(value: f64) -> Result<f64, NotInRange> {
-        let value = check_finite(value)?;
-        if Self::contains(value) {
-            Ok(value)
-        } else {
-            Err(NotInRange(format!("{value} is out of range: expected {}", Self::EXPECTED)))
-        }
+        check_contained::<Self>(check_finite(value)?)
+    }
+}
+
+fn check_contained<R: Range + ?Sized>(value: f64) -> Result<f64, NotInRange> {
+    if R::contains(value) {
+        Ok(value)
+    } else {
+        Err(NotInRange(format!("{value} is out of range: expected {}", R::EXPECTED)))
     }
 }
 
@@ -76,7 +79,18 @@ pub(super) enum AboveZero {}
 impl Range for AboveZero {
     const EXPECTED: &'static str = "a number above 0";
     fn contains(value: f64) -> bool {
-        value >= f64::from(f32::MIN_POSITIVE)
+        value > 0.0
+    }
+
+    fn check(value: f64) -> Result<f64, NotInRange> {
+        let value = check_finite(value)?;
+        if value > 0.0 && value < f64::from(f32::MIN_POSITIVE) {
+            return Err(NotInRange(format!(
+                "{value:e} is too small: the smallest is {:.1e}",
+                f32::MIN_POSITIVE
+            )));
+        }
+        check_contained::<Self>(value)
     }
 }
 
@@ -289,7 +303,7 @@ mod tests {
     fn ranges_are_held() {
         assert!(read::<Number<NotNegative>>("-1").unwrap_err().contains("-1 is out of range"));
         assert!(read::<Number<AboveZero>>("0").is_err());
-        assert!(read::<Number<AboveZero>>("1e-40").is_err());
+        assert!(read::<Number<AboveZero>>("1e-40").unwrap_err().contains("too small"));
         assert!(read::<Number<Unit>>("1.5").is_err());
         assert!(read::<Number<ViewAngle>>("180").is_err());
         assert!(read::<Whole<1, 8>>("0").unwrap_err().contains("from 1 to 8"));

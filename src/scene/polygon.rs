@@ -12,23 +12,25 @@ use glam::{DVec2, DVec3};
 /// there is no right answer; the result still has n − 2 triangles and the same outer edges.
 /// Time is O(n²) at worst.
 pub(super) fn triangulate(corners: &[DVec3]) -> Vec<[usize; 3]> {
-    let mut ring = Ring::new(project(corners));
     let mut triangles = Vec::with_capacity(corners.len().saturating_sub(2));
+    let mut ring = Ring::new(corners);
     let mut corner = 1;
     let mut tried = 0;
     while ring.left > 3 {
         // Where no ear is left, which happens to faces that cross themselves only, any corner will do.
         if ring.is_ear(corner) || tried > ring.left {
-            triangles.push([ring.previous[corner], corner, ring.next[corner]]);
+            triangles.push(ring.triangle(corner));
             corner = ring.clip(corner);
             tried = 0;
         } else {
-            corner = ring.next[corner];
+            corner = ring.links[corner].next;
             tried += 1;
         }
     }
-    if corners.len() >= 3 {
-        triangles.push(ring.last_triangle(corner));
+    if ring.left == 3 {
+        let last = ring.triangle(corner);
+        let lowest = last.into_iter().min().unwrap_or(corner);
+        triangles.push(ring.triangle(ring.links[lowest].next));
     }
     triangles
 }
@@ -40,92 +42,90 @@ fn newell_normal(corners: &[DVec3]) -> DVec3 {
     corners.iter().zip(following).map(|(&a, &b)| (a - origin).cross(b - origin)).sum()
 }
 
-/// Drop the axis along which the polygon's normal is longest; a positive orientation stays positive.
-fn project(corners: &[DVec3]) -> Vec<DVec2> {
-    let normal = newell_normal(corners);
+/// The projection along the axis to which a polygon's normal is nearest, under which the polygon runs
+/// counter-clockwise.
+fn projection(normal: DVec3) -> impl Fn(DVec3) -> DVec2 {
     let size = normal.abs();
-    let flip = |along: f64, a: f64, b: f64| if along < 0.0 { DVec2::new(b, a) } else { DVec2::new(a, b) };
-    corners
-        .iter()
-        .map(|p| {
-            if size.x >= size.y && size.x >= size.z {
-                flip(normal.x, p.y, p.z)
-            } else if size.y >= size.z {
-                flip(normal.y, p.z, p.x)
-            } else {
-                flip(normal.z, p.x, p.y)
-            }
-        })
-        .collect()
+    let [right, up] = if size.x >= size.y && size.x >= size.z {
+        [1, 2]
+    } else if size.y >= size.z {
+        [2, 0]
+    } else {
+        [0, 1]
+    };
+    let [right, up] = if normal[3 - right - up] < 0.0 { [up, right] } else { [right, up] };
+    move |point| DVec2::new(point[right], point[up])
 }
 
 /// Twice the signed area of a triangle, positive where it runs counter-clockwise.
-fn area2(a: DVec2, b: DVec2, c: DVec2) -> f64 {
+fn area2([a, b, c]: [DVec2; 3]) -> f64 {
     (b - a).perp_dot(c - a)
 }
 
-/// The corners that are not yet cut off, linked into a ring.
+/// A corner in the ring of those that are left.
+struct Link {
+    point: DVec2,
+    previous: usize,
+    next: usize,
+    is_cut: bool,
+    /// The first point that is not yet known to lie outside this corner's triangle. Points never move, so it
+    /// goes back only when the corner gets a new neighbour: this makes O(n²).
+    untested: usize,
+}
+
+/// The corners that are not yet cut off.
 struct Ring {
-    points: Vec<DVec2>,
-    next: Vec<usize>,
-    previous: Vec<usize>,
-    is_cut: Vec<bool>,
-    /// For each corner, the first point that is not yet known to lie outside the corner's triangle.
-    /// Points never move, so it only goes back when the corner gets a new neighbour: this makes O(n²).
-    untested: Vec<usize>,
+    links: Vec<Link>,
     left: usize,
 }
 
 impl Ring {
-    fn new(points: Vec<DVec2>) -> Self {
-        let count = points.len();
-        Self {
-            next: (0..count).map(|corner| (corner + 1) % count).collect(),
-            previous: (0..count).map(|corner| (corner + count - 1) % count).collect(),
-            is_cut: vec![false; count],
-            untested: vec![0; count],
-            left: count,
-            points,
-        }
+    fn new(corners: &[DVec3]) -> Self {
+        let (count, project) = (corners.len(), projection(newell_normal(corners)));
+        let link = |(corner, &point): (usize, &DVec3)| Link {
+            point: project(point),
+            previous: (corner + count - 1) % count,
+            next: (corner + 1) % count,
+            is_cut: false,
+            untested: 0,
+        };
+        Self { links: corners.iter().enumerate().map(link).collect(), left: count }
+    }
+
+    /// A corner between its neighbours.
+    fn triangle(&self, corner: usize) -> [usize; 3] {
+        [self.links[corner].previous, corner, self.links[corner].next]
     }
 
     /// Whether a corner is convex and no other point lies in its triangle.
     fn is_ear(&mut self, corner: usize) -> bool {
-        let [a, b, c] = [self.previous[corner], corner, self.next[corner]].map(|index| self.points[index]);
-        if area2(a, b, c) <= 0.0 {
+        let [a, b, c] = self.triangle(corner).map(|corner| self.links[corner].point);
+        if area2([a, b, c]) <= 0.0 {
             return false;
         }
-        let blocks = |point: usize| {
-            let p = self.points[point];
+        let blocks = |link: &Link| {
+            let p = link.point;
             // A point at a corner's own place (a doubled corner of a bridge to a hole) does not block.
-            !self.is_cut[point]
+            !link.is_cut
                 && ![a, b, c].contains(&p)
-                && area2(a, b, p) >= 0.0
-                && area2(b, c, p) >= 0.0
-                && area2(c, a, p) >= 0.0
+                && [[a, b, p], [b, c, p], [c, a, p]].into_iter().all(|triangle| area2(triangle) >= 0.0)
         };
-        let blocker = (self.untested[corner]..self.points.len()).find(|&point| blocks(point));
-        self.untested[corner] = blocker.unwrap_or(self.points.len());
+        let start = self.links[corner].untested;
+        let blocker = self.links[start..].iter().position(blocks);
+        self.links[corner].untested = blocker.map_or(self.links.len(), |offset| start + offset);
         blocker.is_none()
     }
 
     /// Take a corner out; returns the one after it.
     fn clip(&mut self, corner: usize) -> usize {
-        let (before, after) = (self.previous[corner], self.next[corner]);
-        self.next[before] = after;
-        self.previous[after] = before;
-        self.untested[before] = 0;
-        self.untested[after] = 0;
-        self.is_cut[corner] = true;
+        let [before, _, after] = self.triangle(corner);
+        self.links[before].next = after;
+        self.links[after].previous = before;
+        self.links[before].untested = 0;
+        self.links[after].untested = 0;
+        self.links[corner].is_cut = true;
         self.left -= 1;
         after
-    }
-
-    /// The three corners that are left, from the lowest on.
-    fn last_triangle(&self, corner: usize) -> [usize; 3] {
-        let corners = [self.previous[corner], corner, self.next[corner]];
-        let lowest = corners.into_iter().min().unwrap_or(corner);
-        [lowest, self.next[lowest], self.previous[lowest]]
     }
 }
 

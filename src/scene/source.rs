@@ -10,8 +10,9 @@ use super::{Diagnostic, Location};
 
 /// The longest scene file that is read, in bytes.
 const MAX_SCENE_BYTES: u64 = 1 << 24;
-/// The longest mesh or material file that is read, in bytes: offsets and indices in it fit 32 bits.
-const MAX_MESH_BYTES: u64 = 1 << 31;
+/// The longest mesh or material file that is read, in bytes: offsets in it fit 32 bits, even where each byte
+/// is replaced by the three of U+FFFD.
+const MAX_MESH_BYTES: u64 = 1 << 30;
 /// The longest beginning of a line that a message shows, in characters.
 const MAX_SHOWN: usize = 2000;
 
@@ -61,9 +62,9 @@ impl Source {
         let end = self.text.floor_char_boundary(span.end).clamp(start, line_end);
         Location {
             file: self.path.clone(),
-            line: number,
-            column: self.text[line_start..start].chars().count() + 1,
-            length: self.text[start..end].chars().count().max(1),
+            line: number as u32,
+            column: self.text[line_start..start].chars().count() as u32 + 1,
+            length: (self.text[start..end].chars().count() as u32).max(1),
             text: line.chars().take(MAX_SHOWN).collect(),
         }
     }

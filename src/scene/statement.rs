@@ -8,15 +8,17 @@ use super::{Diagnostic, Location, SceneError, number};
 pub(super) struct Statement<'a> {
     /// The first word.
     pub(super) keyword: &'a str,
-    /// What follows, trimmed. A continued line still has its backslash and line break here.
+    /// What follows, trimmed: a name may hold spaces and hashes. A continued line still has its backslash and
+    /// line break here.
     pub(super) rest: &'a str,
     source: &'a Source,
 }
 
 impl<'a> Statement<'a> {
-    /// The words after the keyword.
+    /// The words after the keyword, up to a comment.
     pub(super) fn words(&self) -> impl Iterator<Item = &'a str> + use<'a> {
-        self.rest.split(|c: char| c.is_ascii_whitespace() || c == '\\').filter(|word| !word.is_empty())
+        let text = self.rest.split('#').next().unwrap_or_default();
+        text.split(|c: char| c.is_ascii_whitespace() || c == '\\').filter(|word| !word.is_empty())
     }
 
     /// The place of a part of this statement.
@@ -70,7 +72,11 @@ impl<'a> Statements<'a> {
     fn next_line(&mut self) -> Option<&'a str> {
         let ends = self.rest.match_indices('\n').map(|(newline, _)| newline + 1);
         let mut ends = ends.chain(std::iter::once(self.rest.len()));
-        let is_whole = |end: &usize| !self.rest[..*end].trim_end_matches(['\r', '\n']).ends_with('\\');
+        let is_whole = |end: &usize| {
+            let line = &self.rest[..*end];
+            let line = line.strip_suffix('\n').unwrap_or(line);
+            !line.strip_suffix('\r').unwrap_or(line).ends_with('\\')
+        };
         let end = ends.find(is_whole).unwrap_or(self.rest.len());
         let (line, rest) = self.rest.split_at(end);
         self.rest = rest;
@@ -84,13 +90,14 @@ impl<'a> Iterator for Statements<'a> {
     fn next(&mut self) -> Option<Statement<'a>> {
         loop {
             let line = self.next_line()?;
-            let text = line.split('#').next().unwrap_or_default().trim_ascii();
-            if let Some(keyword) = text.split_ascii_whitespace().next() {
-                return Some(Statement {
-                    keyword,
-                    rest: text[keyword.len()..].trim_ascii(),
-                    source: self.source,
-                });
+            let text = line.trim_ascii();
+            match text.split_ascii_whitespace().next() {
+                None => {}
+                Some(keyword) if keyword.starts_with('#') => {}
+                Some(keyword) => {
+                    let rest = text[keyword.len()..].trim_ascii();
+                    return Some(Statement { keyword, rest, source: self.source });
+                }
             }
         }
     }
@@ -109,9 +116,11 @@ mod tests {
 
     #[test]
     fn comments_blank_lines_and_the_byte_order_mark_are_skipped() {
-        let source = source("\u{feff}# a\r\n\r\n  v 1 2 # b\n\tusemtl old glass \n");
-        let found: Vec<_> = Statements::new(&source).map(|s| (s.keyword, s.rest)).collect();
-        assert_eq!(found, [("v", "1 2"), ("usemtl", "old glass")]);
+        let source = source("\u{feff}# a\r\n\r\n  v 1 2 # b\n\tusemtl old glass #2 \n#");
+        let statements: Vec<_> = Statements::new(&source).collect();
+        assert_eq!(statements.len(), 2);
+        assert_eq!(statements[0].words().collect::<Vec<_>>(), ["1", "2"]);
+        assert_eq!((statements[1].keyword, statements[1].rest), ("usemtl", "old glass #2"));
     }
 
     #[test]
@@ -129,6 +138,7 @@ mod tests {
     fn a_backslash_at_the_very_end_is_harmless() {
         assert_eq!(Statements::new(&source("f 1 \\")).count(), 1);
         assert_eq!(Statements::new(&source("f 1 \\\n")).count(), 1);
+        assert_eq!(Statements::new(&source("f 1 \\\n\nv 1")).count(), 2);
     }
 
     #[test]

@@ -8,11 +8,12 @@ use toml::Spanned;
 use super::color::Color;
 use super::document::{AmbientTable, BackgroundTable, FalloffKey, LightTable};
 use super::source::Source;
+use super::table::Table;
 use super::texture::{Purpose, Textures};
 use super::{Background, Diagnostic, Falloff, Light};
 
 /// Ia.
-pub(super) fn ambient(table: Option<&AmbientTable>) -> DVec3 {
+pub(super) fn ambient(table: Option<&Table<AmbientTable>>) -> DVec3 {
     table.map_or(DVec3::ZERO, |table| table.color.0 * table.intensity.value)
 }
 
@@ -30,14 +31,14 @@ pub(super) fn light(table: &LightTable) -> Light {
 
 /// The background: exactly one of its three kinds; `directory` is the scene file's.
 pub(super) fn background(
-    table: &Spanned<BackgroundTable>,
+    table: &Spanned<Table<BackgroundTable>>,
     source: &Source,
     directory: &Path,
     textures: &mut Textures,
 ) -> Result<Background, Diagnostic> {
     let kinds = "give `color`, or both `zenith` and `horizon`, or `image`";
     let at_table = |message| Diagnostic::error(message).at(source.locate(table.span())).hint(kinds);
-    let BackgroundTable { color, zenith, horizon, image, rotation_y, intensity } = table.get_ref();
+    let BackgroundTable { color, zenith, horizon, image, rotation_y, intensity } = &**table.get_ref();
     let scaled = |color: &Color| color.0 * intensity.value;
     if let (None, Some(rotation)) = (image, rotation_y) {
         let message = "`rotation_y` turns an image, and this background has none";

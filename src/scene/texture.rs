@@ -14,6 +14,8 @@ use super::{Diagnostic, Pixels, Texture, TextureId};
 const MAX_SIDE: u32 = 16384;
 /// The most pixels of a picture: an 8192 × 4096 environment.
 const MAX_PIXELS: u64 = 1 << 25;
+/// The most pixels of all pictures together.
+const MAX_TOTAL_PIXELS: u64 = 4 * MAX_PIXELS;
 /// What a decoder may allocate, in bytes: two copies of such a picture in f32 RGBA.
 const MAX_ALLOCATION: u64 = 2 * 16 * MAX_PIXELS;
 
@@ -32,6 +34,7 @@ pub(super) struct Textures {
     /// Indexed by [`TextureId`].
     pub(super) list: Vec<Texture>,
     ids: HashMap<PathBuf, TextureId>,
+    pixels: u64,
 }
 
 impl Textures {
@@ -40,8 +43,10 @@ impl Textures {
         let id = match self.ids.get(path) {
             Some(&id) => id,
             None => {
+                let texture = read(path)?;
+                self.count(&texture)?;
                 let id = TextureId(self.list.len());
-                self.list.push(read(path)?);
+                self.list.push(texture);
                 self.ids.insert(path.into(), id);
                 id
             }
@@ -51,6 +56,16 @@ impl Textures {
             return Err(Diagnostic::error(message).hint("use a PNG or JPEG; HDR and EXR are for backgrounds"));
         }
         Ok(id)
+    }
+
+    /// Count a picture's pixels; refuse more than memory should hold.
+    fn count(&mut self, texture: &Texture) -> Result<(), Diagnostic> {
+        self.pixels += u64::from(texture.width) * u64::from(texture.height);
+        if self.pixels > MAX_TOTAL_PIXELS {
+            let message = format!("the pictures have {} pixels; the most is {MAX_TOTAL_PIXELS}", self.pixels);
+            return Err(Diagnostic::error(message).hint("use smaller pictures"));
+        }
+        Ok(())
     }
 }
 
@@ -66,8 +81,7 @@ fn read(path: &Path) -> Result<Texture, Diagnostic> {
     let reader = ImageReader::new(BufReader::new(file));
     let mut reader = reader.with_guessed_format().map_err(|error| broken(error.into()))?;
     reader.limits(limits());
-    let mut decoder = reader.into_decoder().map_err(broken)?;
-    decoder.set_limits(limits()).map_err(broken)?;
+    let decoder = reader.into_decoder().map_err(broken)?;
     let (width, height) = decoder.dimensions();
     if width == 0 || height == 0 || u64::from(width) * u64::from(height) > MAX_PIXELS {
         let message = format!("{} has {width} × {height} pixels; the most is {MAX_PIXELS}", path.display());
@@ -138,6 +152,13 @@ mod tests {
     }
 
     #[test]
+    fn jpeg_is_srgb8() {
+        let grey = DynamicImage::ImageRgb8(image::ImageBuffer::from_pixel(8, 8, image::Rgb([128; 3])));
+        let (_directory, path) = picture("a.jpg", &grey);
+        assert_eq!(read(&path).unwrap().pixels, Pixels::Srgb8(vec![[128; 3]; 64]));
+    }
+
+    #[test]
     fn exr_and_hdr_are_linear() {
         for name in ["a.exr", "a.hdr"] {
             let (_directory, path) = picture(name, &linear(vec![4.0, 0.5, 0.0]));
@@ -169,6 +190,15 @@ mod tests {
         let first = textures.load(&path, Purpose::Background).unwrap();
         assert_eq!(textures.load(&path, Purpose::Background), Ok(first));
         assert_eq!(textures.list.len(), 1);
+    }
+
+    #[test]
+    fn pictures_are_bounded_together() {
+        let texture =
+            Texture { path: PathBuf::new(), width: 8192, height: 4096, pixels: Pixels::Srgb8(Vec::new()) };
+        let mut textures = Textures::default();
+        assert!((0..4).all(|_| textures.count(&texture).is_ok()));
+        assert!(textures.count(&texture).unwrap_err().message.contains("the most is 134217728"));
     }
 
     #[test]

@@ -181,7 +181,7 @@ fn check_lists_bodies_media_buffers_and_effects_with_reasons() {
 #[test]
 fn an_interrupt_keeps_what_is_finished() {
     let folder = scene_folder();
-    let line = "render ball.toml -o ball.png --backend cpu --size 256x256 --samples 65536 --progress plain";
+    let line = "render ball.toml -o ball.png --backend cpu --size 1024x1024 --samples 256 --progress plain";
     let mut child = command(folder.path(), line).stderr(Stdio::piped()).spawn().expect("the program starts");
     let mut lines = BufReader::new(child.stderr.take().expect("a pipe")).lines();
     assert!(lines.any(|line| line.is_ok_and(|line| line.contains("traced"))));

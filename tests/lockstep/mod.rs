@@ -11,6 +11,7 @@ mod devices;
 mod layout;
 mod pictures;
 mod planted;
+mod probes;
 mod scene;
 mod strict;
 mod twins;

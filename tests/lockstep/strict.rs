@@ -6,7 +6,8 @@ use snellius::layout::{Float, Intersector, Precision};
 use super::devices::on_each;
 use super::scene;
 
-const PLAIN: Variant = Variant {
+/// The variant of the default settings, with small stacks.
+pub(super) const PLAIN: Variant = Variant {
     precision: Precision::F32,
     float: Float::Strict,
     intersector: Intersector::Watertight,

@@ -12,6 +12,9 @@ use super::planted::Planted;
 /// Files on one side only, and why.
 const ALONE: &[(&str, &str)] = &[
     ("bindings", "kernel::World holds what the buffers hold"),
+    ("probe", "the tests hold its twin"),
+    ("probe_plain", "the tests hold its twin"),
+    ("probe_scene", "the tests hold its twin"),
     ("records", "src/layout holds the records"),
     ("render", "the entry point: src/cpu is its twin"),
     ("vector", "WGSL has vectors"),
@@ -33,9 +36,9 @@ const EXCEPTIONS: &[(&str, &str, &str)] = &[
 ];
 
 /// Names of functions by file stem, in the order of the file.
-type Functions = BTreeMap<String, Vec<String>>;
+pub(super) type Functions = BTreeMap<String, Vec<String>>;
 
-fn shader_functions(sources: &[Source<'_>]) -> Functions {
+pub(super) fn shader_functions(sources: &[Source<'_>]) -> Functions {
     let names = |text: &str| {
         let file: TranslationUnit = text.parse().unwrap();
         let name = |declaration: &GlobalDeclaration| match declaration {

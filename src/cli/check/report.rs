@@ -78,7 +78,7 @@ pub(super) struct Effect {
 
 impl Report {
     pub(super) fn new(prepared: &Prepared) -> Self {
-        let Prepared { scene, flat, warnings, .. } = prepared;
+        let (scene, flat) = (&prepared.scene, &prepared.flat.scene);
         let media = scene.materials.iter().filter(|material| material.is_transmissive());
         Self {
             scene: scene.source.display().to_string(),
@@ -95,7 +95,7 @@ impl Report {
             buffers: buffers(flat, scene.render.size),
             bvh: Bvh { nodes: flat.nodes.len(), depth: flat.bvh_depth },
             effects: effects(scene, flat),
-            warnings: warnings.iter().map(|warning| warning.render(false)).collect(),
+            warnings: prepared.warnings().map(|warning| warning.render(false)).collect(),
         }
     }
 }

@@ -81,11 +81,11 @@ impl RenderConfig {
         }
     }
 
-    /// The part to trace.
-    pub(super) fn crop(&self, size: [u32; 2]) -> Result<[u32; 4], CliError> {
+    /// The part to trace, if not the whole.
+    pub(super) fn crop(&self, size: [u32; 2]) -> Result<Option<[u32; 4]>, CliError> {
         match self.crop {
-            None => Ok([0, 0, size[0], size[1]]),
-            Some(crop) if crop.fits(size) => Ok(crop.0),
+            None => Ok(None),
+            Some(crop) if crop.fits(size) => Ok(Some(crop.0)),
             Some(crop) => {
                 Err(CliError::usage(format!("--crop {crop} is not inside the picture of {}", Size(size))))
             }
@@ -197,7 +197,7 @@ mod tests {
     #[test]
     fn a_crop_outside_the_picture_is_refused_with_both_figures() {
         let config = config("a.toml -o a.png --crop 60,0,10,10").unwrap();
-        assert_eq!(config.crop([70, 10]).unwrap(), [60, 0, 10, 10]);
+        assert_eq!(config.crop([70, 10]).unwrap(), Some([60, 0, 10, 10]));
         let message = config.crop([64, 48]).unwrap_err().render(false);
         assert!(message.contains("--crop 60,0,10,10 is not inside the picture of 64x48"), "{message}");
     }

@@ -26,12 +26,12 @@ pub(super) fn run(args: RenderArgs, console: Console) -> Result<Outcome, CliErro
     let started = Instant::now();
     let config = RenderConfig::new(args)?;
     let prepared = Prepared::new(&config.scene)?;
-    let Prepared { scene, flat, warnings, .. } = &prepared;
-    warnings.iter().for_each(|warning| console.warn_of(warning));
+    prepared.warnings().for_each(|warning| console.warn_of(warning));
+    let (scene, flat) = (&prepared.scene, &prepared.flat.scene);
     let render = config.overridden(&scene.render);
     let settings = config.settings(&render);
     let crop = config.crop(render.size)?;
-    let view = flatten::view(&scene.camera, flat, render.size, Some(crop), &settings);
+    let view = flatten::view(&scene.camera, flat, render.size, crop, &settings);
     let mut device = config.device.clone().settle(config.precision, console).open(flat)?;
     let frame = {
         let progress = RenderProgress::start(config.progress, console);
@@ -39,7 +39,7 @@ pub(super) fn run(args: RenderArgs, console: Console) -> Result<Outcome, CliErro
     };
     let job = Job { config: &config, prepared: &prepared, render, settings, device: &device, frame: &frame };
     let encode = job.write_pictures(console)?;
-    let times = Times::new(prepared.load, prepared.bvh, frame.times, encode, started.elapsed());
+    let times = Times::new(prepared.load, prepared.flat.bvh_time, frame.times, encode, started.elapsed());
     if config.json {
         print_json(&job.report(times))?;
     }
@@ -100,7 +100,7 @@ impl Job<'_> {
     }
 
     fn effect_names(&self) -> Vec<String> {
-        let called_for = Effects::of(&self.prepared.flat, &self.settings);
+        let called_for = Effects::of(&self.prepared.flat.scene, &self.settings);
         let simulated =
             |effect: &Effect| self.config.effects == EffectsChoice::All || called_for.has(*effect);
         Effect::ALL.into_iter().filter(simulated).map(|effect| effect.name().to_owned()).collect()
@@ -119,13 +119,13 @@ impl Job<'_> {
             depth: self.render.depth,
             cutoff: self.render.cutoff,
             samples: self.render.samples,
-            triangles: self.prepared.flat.triangles.len(),
+            triangles: self.prepared.flat.scene.triangles.len(),
             effects: self.effect_names(),
             rays: self.frame.rays.into(),
             times_ms,
             dropped,
             bound,
-            max_radiance: self.prepared.flat.radiance_bound.last().copied().unwrap_or_default(),
+            max_radiance: self.prepared.flat.scene.radiance_bound.last().copied().unwrap_or_default(),
         }
     }
 

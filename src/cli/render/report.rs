@@ -57,9 +57,9 @@ impl From<RayCounts> for Rays {
 /// Milliseconds.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(super) struct Times {
-    /// Reading and checking the scene's files.
+    /// Reading, checking and flattening the scene.
     pub(super) load: f64,
-    /// Flattening, the BVH included.
+    /// Building the BVH.
     pub(super) bvh: f64,
     upload: f64,
     compile: f64,
@@ -89,7 +89,7 @@ impl Times {
         encode: Duration,
         total: Duration,
     ) -> Self {
-        let ms = |time: Duration| time.as_secs_f64() * 1e3;
+        let ms = |time: Duration| time.as_micros() as f64 / 1e3;
         Self {
             load: ms(load),
             bvh: ms(bvh),
