@@ -2,12 +2,11 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::goblet::spline;
 use crate::mesh::Mesh;
 use crate::noise::noise;
 use crate::obj::{Part, rounded, text_with_materials};
 use crate::product::{Make, Product};
-use crate::shapes::{icosphere, lathe, prism};
+use crate::shapes::{icosphere, lathe, prism, spline};
 
 /// The OBJ and its MTL.
 pub(crate) fn products() -> Vec<Product> {
