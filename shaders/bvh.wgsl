@@ -104,40 +104,35 @@ fn intersect(ray: Ray, limit: real) -> Hit {
         let node = nodes[at];
         let a = slabs(ray, vec3r(node.a_lo), vec3r(node.a_hi));
         let b = slabs(ray, vec3r(node.b_lo), vec3r(node.b_hi));
-        // Nearer child first.
+        // Nearer child first; leaves at once.
         let swap = b.entry < a.entry;
-        let near_entry = select(a.entry, b.entry, swap);
-        let near_exit = select(a.exit, b.exit, swap);
-        let far_entry = select(b.entry, a.entry, swap);
-        let far_exit = select(b.exit, a.exit, swap);
-        let near_first = select(node.a_first, node.b_first, swap);
-        let near_count = select(node.a_count, node.b_count, swap);
-        let far_first = select(node.b_first, node.a_first, swap);
-        let far_count = select(node.b_count, node.a_count, swap);
-        // Leaves at once.
-        var near_inner = near_entry <= near_exit && near_entry <= best.t;
-        if near_inner && near_count > 0u {
-            for (var i = near_first; i < near_first + near_count; i++) {
-                best = nearer(ray, i, best);
+        var inner = vec2<bool>(false, false);
+        var first = vec2u(0u, 0u);
+        for (var side = 0u; side < 2u; side++) {
+            let is_a = (side == 0u) != swap;
+            let entry = select(b.entry, a.entry, is_a);
+            let exit = select(b.exit, a.exit, is_a);
+            let begin = select(node.b_first, node.a_first, is_a);
+            let count = select(node.b_count, node.a_count, is_a);
+            let hit = entry <= exit && entry <= best.t;
+            first = select(vec2u(first.x, begin), vec2u(begin, first.y), side == 0u);
+            let enters = hit && count == 0u;
+            inner = select(vec2<bool>(inner.x, enters), vec2<bool>(enters, inner.y), side == 0u);
+            if hit {
+                for (var i = begin; i < begin + count; i++) {
+                    best = nearer(ray, i, best);
+                }
             }
-            near_inner = false;
-        }
-        var far_inner = far_entry <= far_exit && far_entry <= best.t;
-        if far_inner && far_count > 0u {
-            for (var i = far_first; i < far_first + far_count; i++) {
-                best = nearer(ray, i, best);
-            }
-            far_inner = false;
         }
         // Descend, the farther one waits.
-        if near_inner && far_inner {
-            bvh_stack[size] = far_first;
+        if inner.x && inner.y {
+            bvh_stack[size] = first.y;
             size++;
-            at = near_first;
-        } else if near_inner {
-            at = near_first;
-        } else if far_inner {
-            at = far_first;
+            at = first.x;
+        } else if inner.x {
+            at = first.x;
+        } else if inner.y {
+            at = first.y;
         } else if size > 0u {
             size--;
             at = bvh_stack[size];
@@ -161,33 +156,29 @@ fn occluded(ray: Ray, limit: real) -> bool {
         let node = nodes[at];
         let a = slabs(ray, vec3r(node.a_lo), vec3r(node.a_hi));
         let b = slabs(ray, vec3r(node.b_lo), vec3r(node.b_hi));
-        var a_inner = a.entry <= a.exit && a.entry <= limit;
-        if a_inner && node.a_count > 0u {
-            for (var i = node.a_first; i < node.a_first + node.a_count; i++) {
-                if nearer(ray, i, start).index != NONE {
-                    found = true;
-                    break;
+        var inner = vec2<bool>(false, false);
+        for (var side = 0u; side < 2u; side++) {
+            let is_a = side == 0u;
+            let entry = select(b.entry, a.entry, is_a);
+            let exit = select(b.exit, a.exit, is_a);
+            let begin = select(node.b_first, node.a_first, is_a);
+            let count = select(node.b_count, node.a_count, is_a);
+            let hit = entry <= exit && entry <= limit;
+            let enters = hit && count == 0u;
+            inner = select(vec2<bool>(inner.x, enters), vec2<bool>(enters, inner.y), is_a);
+            if hit {
+                for (var i = begin; i < begin + count && !found; i++) {
+                    found = nearer(ray, i, start).index != NONE;
                 }
             }
-            a_inner = false;
         }
-        var b_inner = b.entry <= b.exit && b.entry <= limit;
-        if b_inner && node.b_count > 0u {
-            for (var i = node.b_first; i < node.b_first + node.b_count; i++) {
-                if nearer(ray, i, start).index != NONE {
-                    found = true;
-                    break;
-                }
-            }
-            b_inner = false;
-        }
-        if a_inner && b_inner {
+        if inner.x && inner.y {
             bvh_stack[size] = node.b_first;
             size++;
             at = node.a_first;
-        } else if a_inner {
+        } else if inner.x {
             at = node.a_first;
-        } else if b_inner {
+        } else if inner.y {
             at = node.b_first;
         } else if size > 0u {
             size--;

@@ -1,6 +1,7 @@
 // Entry points: functions of numbers alone, each over many inputs. Twins in tests/lockstep/probes/plain.rs.
 
 import package::probe::{begin, put, put3, put_flag, put_word, take, take3, take_word};
+import package::constants::PROBE_GROUP;
 import package::film::flush;
 import package::hash::{mix_hash, sample_offset};
 import package::light::phong;
@@ -12,7 +13,7 @@ import package::surface::{lift, turn_towards};
 import package::texture::{blend, wrap};
 import package::triangle::{Crossing, moller_trumbore, shear_of, watertight};
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_dot3(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let a = take3();
@@ -20,7 +21,7 @@ fn probe_dot3(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_cross3(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let a = take3();
@@ -28,35 +29,35 @@ fn probe_cross3(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_length3(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         put(length3(take3()));
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_unit3(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         put3(unit3(take3()));
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_max3(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         put(max3(take3()));
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_exp_neg(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         put(exp_neg(take()));
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_power(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let x = take();
@@ -64,7 +65,7 @@ fn probe_power(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_arctangent(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let y = take();
@@ -72,7 +73,7 @@ fn probe_arctangent(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_mix_hash(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let hash = take_word();
@@ -80,7 +81,7 @@ fn probe_mix_hash(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_sample_offset(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let offset = sample_offset(take_word());
@@ -89,21 +90,21 @@ fn probe_sample_offset(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_flush(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         put(flush(take()));
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_safe_reciprocal(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         put(safe_reciprocal(take()));
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_shear_of(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let shear = shear_of(take3());
@@ -112,7 +113,7 @@ fn probe_shear_of(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_watertight(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let origin = take3();
@@ -121,7 +122,7 @@ fn probe_watertight(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_moller_trumbore(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let origin = take3();
@@ -147,7 +148,7 @@ fn put_crossing(crossing: Crossing) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_turn_towards(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let v = take3();
@@ -155,7 +156,7 @@ fn probe_turn_towards(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_lift(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let point = take3();
@@ -164,7 +165,7 @@ fn probe_lift(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_fresnel(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let cosine = take();
@@ -175,7 +176,7 @@ fn probe_fresnel(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_phong(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let n = take3();
@@ -186,7 +187,7 @@ fn probe_phong(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_wrap(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let u = take();
@@ -196,7 +197,7 @@ fn probe_wrap(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_blend(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let a = take3();

@@ -5,7 +5,7 @@ import package::real::{real, vec3r};
 import package::background::background;
 import package::bvh::{far, intersect, make_ray, occluded, slabs};
 import package::camera::primary_ray;
-import package::constants::NONE;
+import package::constants::{NONE, PROBE_GROUP};
 import package::light::{direct, transmittance};
 import package::material::{scatter, shadow_transmission};
 import package::math::length3;
@@ -34,7 +34,7 @@ fn take_meeting() -> Meeting {
     return meeting;
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_primary_ray(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let x = take();
@@ -42,7 +42,7 @@ fn probe_primary_ray(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_make_ray(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let origin = take3();
@@ -53,7 +53,7 @@ fn probe_make_ray(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_slabs(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let origin = take3();
@@ -65,7 +65,7 @@ fn probe_slabs(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_intersect(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let origin = take3();
@@ -78,7 +78,7 @@ fn probe_intersect(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_occluded(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let origin = take3();
@@ -87,7 +87,7 @@ fn probe_occluded(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_resolve(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let meeting = take_meeting();
@@ -104,7 +104,7 @@ fn probe_resolve(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_scatter(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let meeting = take_meeting();
@@ -123,7 +123,7 @@ fn probe_scatter(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_shadow_transmission(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let meeting = take_meeting();
@@ -136,7 +136,7 @@ fn probe_shadow_transmission(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_direct(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let meeting = take_meeting();
@@ -151,7 +151,7 @@ fn probe_direct(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_transmittance(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let origin = take3();
@@ -163,14 +163,14 @@ fn probe_transmittance(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_current_medium(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         put_word(current_medium(take_word()));
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_cross_face(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let mask = take_word();
@@ -179,7 +179,7 @@ fn probe_cross_face(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_attenuation(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let medium = take_word();
@@ -187,7 +187,7 @@ fn probe_attenuation(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_texture_color(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let u = take();
@@ -196,14 +196,14 @@ fn probe_texture_color(@builtin(global_invocation_id) id: vec3u) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_background(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         put3(background(take3()));
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(PROBE_GROUP)
 fn probe_trace_tree(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let x = real(i32(take_word()));

@@ -94,14 +94,7 @@ fn trace_tree(direction: vec3r) {
     var current = Branch(vec3r(view.eye), view.start_media, direction, 0u, vec3r(1.0), RAY_PRIMARY);
     stack_size = 0u;
     loop {
-        count_ray(current.kind);
-        let landing = find_surface(current);
-        var next: Next;
-        if landing.found {
-            next = shade(current, landing);
-        } else {
-            escape(current, landing);
-        }
+        let next = follow(current);
         if next.found {
             current = next.branch;
         } else if stack_size > 0u {
@@ -111,6 +104,29 @@ fn trace_tree(direction: vec3r) {
             break;
         }
     }
+}
+
+// Trace one branch, if that is worth it, and shade what it meets; returns the child to go on with.
+fn follow(branch: Branch) -> Next {
+    var next: Next;
+    var landing: Landing;
+    var cut = !worth_tracing(branch);
+    if !cut {
+        count_ray(branch.kind);
+        landing = find_surface(branch);
+        cut = landing.stuck;
+    }
+    if landing.found {
+        next = shade(branch, landing);
+    } else {
+        see_background(branch, cut);
+    }
+    return next;
+}
+
+// Whether a branch is traced: it is neither too deep nor too faint.
+fn worth_tracing(branch: Branch) -> bool {
+    return branch.depth <= view.depth && max3(branch.weight) >= real(view.cutoff);
 }
 
 // Count a traced ray.
@@ -146,14 +162,20 @@ fn find_surface(branch: Branch) -> Landing {
     return landing;
 }
 
-// A branch that meets nothing sees the background; a stuck one too, and counts as cut.
-fn escape(branch: Branch, landing: Landing) {
-    if landing.stuck {
-        cut(branch);
-    } else {
-        sample.radiance = sample.radiance + branch.weight * background(branch.direction);
+// A branch that meets nothing sees the background. A cut one takes it too, and is accounted for.
+fn see_background(branch: Branch, cut: bool) {
+    sample.radiance = sample.radiance + branch.weight * background(branch.direction);
+    if !cut {
         sample.primitive_hash = mix_hash(sample.primitive_hash, branch.kind);
         sample.body_hash = mix_hash(sample.body_hash, branch.kind);
+        return;
+    }
+    let weight = max3(branch.weight);
+    sample.dropped = sample.dropped + weight;
+    // The true tree goes down to MAX_DEPTH, that is MAX_DEPTH + 1 - depth levels from here.
+    if branch.depth <= MAX_DEPTH {
+        let levels = MAX_DEPTH + 1u - branch.depth;
+        sample.bound = sample.bound + weight * real(view.radiance_bound[levels >> 2][levels & 3]);
     }
 }
 
@@ -182,20 +204,12 @@ fn shade(branch: Branch, landing: Landing) -> Next {
     let refraction = Branch(
         spawn_behind(surface), landing.media_behind, scattered.refracted, depth, weight * scattered.transmission,
         RAY_REFRACTION);
-    var reflects = scattered.reflects;
-    if reflects {
-        reflects = keep_or_cut(reflection);
-    }
-    var refracts = scattered.transmits;
-    if refracts {
-        refracts = keep_or_cut(refraction);
-    }
-    if refracts && reflects {
+    if scattered.transmits && scattered.reflects {
         stack[stack_size] = reflection;
         stack_size++;
     }
-    var next = Next(refracts || reflects, refraction);
-    if !refracts {
+    var next = Next(scattered.transmits || scattered.reflects, refraction);
+    if !scattered.transmits {
         next.branch = reflection;
     }
     return next;
@@ -206,25 +220,4 @@ fn note_path(kind: u32, surface: Surface, seen: u32) {
     let side = select(8u, 4u, surface.front);
     sample.primitive_hash = mix_hash(mix_hash(mix_hash(sample.primitive_hash, surface.id), kind), seen);
     sample.body_hash = mix_hash(mix_hash(mix_hash(sample.body_hash, surface.body), kind + side), seen);
-}
-
-// Whether a child is to be traced; if not, it is cut.
-fn keep_or_cut(child: Branch) -> bool {
-    if child.depth <= view.depth && max3(child.weight) >= real(view.cutoff) {
-        return true;
-    }
-    cut(child);
-    return false;
-}
-
-// A cut ray takes the background's radiance in its direction, and is accounted for.
-fn cut(branch: Branch) {
-    let weight = max3(branch.weight);
-    sample.radiance = sample.radiance + branch.weight * background(branch.direction);
-    sample.dropped = sample.dropped + weight;
-    // The true tree goes down to MAX_DEPTH, that is MAX_DEPTH + 1 - depth levels from here.
-    if branch.depth <= MAX_DEPTH {
-        let levels = MAX_DEPTH + 1u - branch.depth;
-        sample.bound = sample.bound + weight * real(view.radiance_bound[levels >> 2][levels & 3]);
-    }
 }

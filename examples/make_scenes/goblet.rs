@@ -6,7 +6,7 @@ use crate::field::smooth_max;
 use crate::mesh::Mesh;
 use crate::noise::{Random, noise};
 use crate::product::Product;
-use crate::shapes::{icosphere, lathe};
+use crate::shapes::{around, icosphere, lathe, spline};
 use crate::surface_nets::surface;
 
 /// Steps around the axis.
@@ -91,22 +91,6 @@ fn outward(wall: &[DVec2]) -> Vec<DVec2> {
     (0..wall.len()).map(moved).collect()
 }
 
-/// A curve through all points (Catmull and Rom 1974), `steps` pieces for each of their intervals.
-pub(crate) fn spline(points: &[[f64; 2]], steps: usize) -> Vec<DVec2> {
-    let at = |i: isize| DVec2::from_array(points[i.clamp(0, points.len() as isize - 1) as usize]);
-    let mut curve = Vec::new();
-    for i in 0..points.len() as isize - 1 {
-        let [a, b, c, d] = [i - 1, i, i + 1, i + 2].map(at);
-        for step in 0..steps {
-            let t = step as f64 / steps as f64;
-            let cubic = (3.0 * (b - c) + d - a) * t + 2.0 * a - 5.0 * b + 4.0 * c - d;
-            curve.push(0.5 * ((cubic * t + c - a) * t + 2.0 * b));
-        }
-    }
-    curve.push(at(points.len() as isize - 1));
-    curve
-}
-
 fn cube() -> Mesh {
     surface(&cube_field, CUBE - 0.52, CUBE + 0.52, 0.025)
 }
@@ -131,10 +115,10 @@ fn bubbles() -> Mesh {
             // Half in the glass.
             0 => {
                 let foot = wall[(random.unit() * wall.len() as f64) as usize];
-                crate::shapes::around(foot.x, foot.y, turn)
+                around(foot.x, foot.y, turn)
             }
             // Rising.
-            1 => crate::shapes::around(random.within(0.0, 0.35), random.within(1.2, LEVEL), turn),
+            1 => around(random.within(0.0, 0.35), random.within(1.2, LEVEL), turn),
             // Half in the ice.
             _ => {
                 let towards = random.point(DVec3::splat(-1.0), DVec3::splat(1.0)).normalize();

@@ -26,10 +26,22 @@ mod topology;
 use std::error::Error;
 use std::path::Path;
 
+use product::Product;
+
 fn main() -> Result<(), Box<dyn Error>> {
     let wanted: Vec<String> = std::env::args().skip(1).collect();
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
-    let products = [
+    for product in products() {
+        if wanted.is_empty() || wanted.iter().any(|word| product.path.contains(word)) {
+            product.write(&folder)?;
+        }
+    }
+    Ok(())
+}
+
+/// Everything that is made.
+fn products() -> Vec<Product> {
+    [
         ice::products(),
         table::products(),
         studio::products(),
@@ -39,11 +51,35 @@ fn main() -> Result<(), Box<dyn Error>> {
         city::products(),
         still_life::products(),
     ]
-    .concat();
-    for product in products {
-        if wanted.is_empty() || wanted.iter().any(|word| product.path.contains(word)) {
-            product.write(&folder)?;
-        }
+    .concat()
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    fn folder() -> std::path::PathBuf {
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes")
     }
-    Ok(())
+
+    #[test]
+    fn every_product_lies_in_the_repository_and_meshes_stay_small() {
+        let mut meshes = 0;
+        for product in products() {
+            let size = std::fs::metadata(folder().join(product.path)).unwrap().len();
+            if product.path.ends_with(".obj") {
+                meshes += size;
+            }
+        }
+        assert!(meshes <= 6_000_000, "{meshes} bytes");
+    }
+
+    #[test]
+    fn paths_are_unique() {
+        let mut paths: Vec<&str> = products().iter().map(|p| p.path).collect();
+        paths.sort_unstable();
+        paths.dedup();
+        assert_eq!(paths.len(), products().len());
+    }
 }

@@ -87,6 +87,22 @@ pub(crate) fn lathe(profile: &[DVec2], sides: usize) -> Mesh {
     between_poles(profile.len() - 1, sides, |ring, turn| around(profile[ring].x, profile[ring].y, turn))
 }
 
+/// A curve through all points (Catmull and Rom 1974), `steps` pieces for each of their intervals.
+pub(crate) fn spline(points: &[[f64; 2]], steps: usize) -> Vec<DVec2> {
+    let at = |i: isize| DVec2::from_array(points[i.clamp(0, points.len() as isize - 1) as usize]);
+    let mut curve = Vec::new();
+    for i in 0..points.len() as isize - 1 {
+        let [a, b, c, d] = [i - 1, i, i + 1, i + 2].map(at);
+        for step in 0..steps {
+            let t = step as f64 / steps as f64;
+            let cubic = (3.0 * (b - c) + d - a) * t + 2.0 * a - 5.0 * b + 4.0 * c - d;
+            curve.push(0.5 * ((cubic * t + c - a) * t + 2.0 * b));
+        }
+    }
+    curve.push(at(points.len() as isize - 1));
+    curve
+}
+
 /// The point at a radius, height and turn anticlockwise about +Y, starting towards +X.
 pub(crate) fn around(radius: f64, height: f64, turn: f64) -> DVec3 {
     let (sin, cos) = (TAU * turn).sin_cos();

@@ -2,12 +2,11 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::goblet::spline;
 use crate::mesh::Mesh;
 use crate::noise::noise;
 use crate::obj::{Part, rounded, text_with_materials};
 use crate::product::{Make, Product};
-use crate::shapes::{icosphere, lathe, prism};
+use crate::shapes::{icosphere, lathe, prism, spline};
 
 /// The OBJ and its MTL.
 pub(crate) fn products() -> Vec<Product> {
@@ -37,8 +36,8 @@ fn still_life() -> String {
 fn materials() -> String {
     "# Materials of the still life.
 newmtl board
-Ka 0.25 0.25 0.25
-Kd 0.9 0.9 0.9
+Ka 0.5 0.42 0.34
+Kd 1 0.85 0.7
 map_Kd textures/oak.png
 illum 1
 
@@ -77,8 +76,8 @@ illum 7
 
 /// A board whose top is at y = 0.
 fn board() -> Mesh {
-    let outline = [(-1.9, -0.15), (1.9, -0.15), (1.9, -0.02), (1.88, 0.0), (-1.88, 0.0), (-1.9, -0.02)];
-    let mut mesh = prism(&outline.map(|(x, y)| DVec2::new(x, y)), 2.6);
+    let outline = [(-1.5, -0.16), (1.5, -0.16), (1.5, -0.02), (1.48, 0.0), (-1.48, 0.0), (-1.5, -0.02)];
+    let mut mesh = prism(&outline.map(|(x, y)| DVec2::new(x, y)), 2.0);
     mesh.uvs = mesh.positions.iter().map(|p| DVec2::new(p.z, p.x) / 3.0).collect();
     mesh
 }

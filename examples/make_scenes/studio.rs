@@ -12,6 +12,7 @@ pub(crate) fn products() -> Vec<Product> {
     vec![
         Product { path: "environments/studio.hdr", make: Make::Hdr(studio) },
         Product { path: "environments/bright_field.hdr", make: Make::Hdr(bright_field) },
+        Product { path: "environments/dusk.hdr", make: Make::Hdr(dusk) },
     ]
 }
 
@@ -35,6 +36,18 @@ fn bright_field() -> Rgb32FImage {
     };
     let dark = DVec3::new(0.022, 0.021, 0.024);
     render(512, |d| dark + back.light(d) + side.light(d) * panes(&side, d))
+}
+
+/// The sky half an hour after sunset towards −Z.
+fn dusk() -> Rgb32FImage {
+    render(512, |d| {
+        let elevation = d.y.asin().to_degrees();
+        let towards_sun = 0.5 - 0.5 * d.z;
+        let glow = DVec3::new(1.05, 0.42, 0.15).lerp(DVec3::new(0.42, 0.24, 0.28), 1.0 - towards_sun.powi(2));
+        let low = glow.lerp(DVec3::new(0.26, 0.27, 0.42), smoothstep(0.0, 14.0, elevation));
+        let high = low.lerp(DVec3::new(0.035, 0.06, 0.17), smoothstep(6.0, 48.0, elevation));
+        high * (0.25 + 0.75 * smoothstep(-8.0, 0.0, elevation))
+    })
 }
 
 fn radiance(d: DVec3) -> DVec3 {

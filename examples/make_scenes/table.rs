@@ -87,9 +87,9 @@ fn wood(uv: DVec2) -> DVec3 {
     };
     let pores = smoothstep(0.35, 0.8, fine(34.0, 24.0, 21)) * 0.35
         + smoothstep(0.0, 1.0, fine(60.0, 12.0, 22)) * 0.18;
-    let light = DVec3::new(0.55, 0.49, 0.44);
-    let dark = DVec3::new(0.27, 0.235, 0.21);
-    let colour = light.lerp(dark, 0.3 + 0.2 * late + 0.12 * fine(6.0, 5.0, 23));
+    let light = DVec3::new(0.53, 0.475, 0.43);
+    let dark = DVec3::new(0.23, 0.195, 0.17);
+    let colour = light.lerp(dark, 0.3 + 0.1 * late + 0.16 * fine(6.0, 5.0, 23) + 0.1 * fine(14.0, 3.0, 24));
     let seam = smoothstep(0.006, 0.016, f.min(1.0 - f));
     colour * (0.72 + 0.42 * tone) * (1.0 - 0.75 * pores) * (0.4 + 0.6 * seam)
 }

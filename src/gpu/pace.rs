@@ -5,16 +5,15 @@
 
 use std::time::Duration;
 
+use super::AdapterKind;
 use crate::layout::Tile;
 
 /// What a submission is meant to take; work ahead can be twice as hard as that behind.
 const TARGET: Duration = Duration::from_millis(25);
-/// Units of the first submission.
-const FIRST: f64 = 8.0;
 /// Greatest growth from one submission to the next: rays may meet a harder part of the picture.
 const GROWTH: f64 = 2.0;
-/// Fewest blocks that keep an adapter busy; where they take too long together, their samples are split.
-const LEAST_BLOCKS: u32 = 16;
+/// Blocks that a graphics card traces side by side, at the least.
+const CARD_WIDTH: u32 = 32;
 /// Workgroups of one dispatch along x (WebGPU's `maxComputeWorkgroupsPerDimension`).
 const MOST_BLOCKS: u32 = 65_535;
 
@@ -23,6 +22,8 @@ const MOST_BLOCKS: u32 = 65_535;
 pub(super) struct Pace {
     blocks: u32,
     samples: u32,
+    /// Blocks that the adapter traces side by side: fewer take as long.
+    width: u32,
     /// The tile that was submitted last, or one before the first.
     last: Tile,
     /// Units that fit one submission.
@@ -30,10 +31,19 @@ pub(super) struct Pace {
 }
 
 impl Pace {
-    /// A picture of so many blocks and samples per pixel.
-    pub(super) fn new(blocks: u32, samples: u32) -> Self {
+    /// A picture of so many blocks and samples per pixel, on that kind of adapter.
+    pub(super) fn new(blocks: u32, samples: u32, kind: AdapterKind) -> Self {
+        let width = if kind.is_real() {
+            CARD_WIDTH
+        } else {
+            std::thread::available_parallelism().map_or(1, |threads| threads.get() as u32)
+        };
+        Self::with_width(blocks, samples, width)
+    }
+
+    fn with_width(blocks: u32, samples: u32, width: u32) -> Self {
         let last = Tile { first_block: 0, block_count: 0, first_sample: 0, sample_count: samples };
-        Self { blocks, samples, last, units: FIRST }
+        Self { blocks, samples, width, last, units: f64::from(width) }
     }
 
     /// The next tile to submit; none when the picture is done.
@@ -62,7 +72,7 @@ impl Pace {
     pub(super) fn took(&mut self, elapsed: Duration) {
         let units = f64::from(self.last.block_count) * f64::from(self.last.sample_count);
         let fitting = units * TARGET.as_secs_f64() / elapsed.as_secs_f64().max(1e-6);
-        self.units = fitting.min(units * GROWTH).max(1.0);
+        self.units = fitting.min(units * GROWTH).max(f64::from(self.width));
     }
 
     /// Units done, and all of them.
@@ -79,11 +89,9 @@ impl Pace {
         if first_sample + sample_count == self.samples { first_block + block_count } else { first_block }
     }
 
-    /// Blocks of the next tile: with all their samples if enough of them fit.
+    /// Blocks of the next tile: with all their samples if enough of them fit, else as few as keep the adapter busy.
     fn fitting_blocks(&self) -> u32 {
-        let whole = self.units / f64::from(self.samples);
-        let split = self.units.min(f64::from(LEAST_BLOCKS));
-        (whole.max(split) as u32).clamp(1, MOST_BLOCKS)
+        ((self.units / f64::from(self.samples)) as u32).clamp(self.width, MOST_BLOCKS)
     }
 
     /// Samples of the next tile of so many blocks.
@@ -97,13 +105,20 @@ impl Pace {
 mod tests {
     use super::*;
 
-    /// The tiles of a picture on an adapter that takes so long for a unit.
+    const WIDTH: u32 = 4;
+
+    /// What a tile takes on an adapter that traces four blocks side by side, each sample in so long.
+    fn time(tile: Tile, unit: Duration) -> Duration {
+        unit * tile.block_count.div_ceil(WIDTH) * tile.sample_count
+    }
+
+    /// The tiles of a picture.
     fn tiles(blocks: u32, samples: u32, unit: Duration) -> Vec<Tile> {
-        let mut pace = Pace::new(blocks, samples);
+        let mut pace = Pace::with_width(blocks, samples, WIDTH);
         let mut tiles = Vec::new();
         while let Some(tile) = pace.next() {
             tiles.push(tile);
-            pace.took(unit * tile.block_count * tile.sample_count);
+            pace.took(time(tile, unit));
         }
         assert_eq!(pace.finished_blocks(), blocks);
         assert_eq!(pace.progress().0, pace.progress().1);
@@ -128,12 +143,17 @@ mod tests {
 
     #[test]
     fn submissions_stay_under_fifty_milliseconds_at_any_speed() {
-        for micros in [1, 20, 300, 4000] {
+        for micros in [1, 20, 300, 4000, 30_000] {
             let unit = Duration::from_micros(micros);
-            let longest =
-                tiles(4800, 16, unit).iter().map(|tile| unit * tile.block_count * tile.sample_count).max();
+            let longest = tiles(4800, 16, unit).into_iter().map(|tile| time(tile, unit)).max();
             assert!(longest <= Some(Duration::from_millis(50)), "{micros} µs a unit: {longest:?}");
         }
+    }
+
+    #[test]
+    fn a_slow_adapter_is_kept_busy() {
+        let tiles = tiles(64, 4, Duration::from_millis(40));
+        assert!(tiles.iter().all(|tile| tile.block_count == WIDTH && tile.sample_count == 1), "{tiles:?}");
     }
 
     #[test]

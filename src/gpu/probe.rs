@@ -1,6 +1,6 @@
 //! Running one function of the kernel over many inputs: the harness of the lock-step comparison.
 //!
-//! A probe is an entry point `fn probe_NAME(@builtin(global_invocation_id) id: vec3u)` of workgroup size 64. It sees
+//! A probe is an entry point `fn probe_NAME(@builtin(global_invocation_id) id: vec3u)` of workgroup size `PROBE_GROUP`. It sees
 //! the scene in bindings 0–6 and 8 and, in place of film and tile,
 //!
 //! ```wgsl
@@ -16,10 +16,9 @@ use super::assemble::Source;
 use super::buffers::SceneBuffers;
 use super::context::Context;
 use super::{AdapterReport, GpuError, GpuOptions, Variant, pipeline};
+use crate::layout::constants::PROBE_GROUP;
 use crate::layout::{FlatScene, View};
 
-/// Invocations of a workgroup.
-const GROUP: u32 = 64;
 /// Records of one dispatch: a small part of a second on any adapter.
 const DISPATCH: u32 = 1 << 16;
 
@@ -79,7 +78,7 @@ impl Prober {
                 let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
                 pass.set_pipeline(&pipeline);
                 pass.set_bind_group(0, &group, &[]);
-                pass.dispatch_workgroups((end - first).div_ceil(GROUP), 1, 1);
+                pass.dispatch_workgroups((end - first).div_ceil(PROBE_GROUP), 1, 1);
             }
             context.queue.submit([encoder.finish()]);
             context.wait()?;

@@ -110,7 +110,7 @@ impl Renderer for GpuRenderer {
         }
         let compiled = Instant::now();
         // Trace.
-        let mut pace = Pace::new(blocks.count(), view.samples);
+        let mut pace = Pace::new(blocks.count(), view.samples, self.context.adapter.kind);
         let rays = job.trace(&mut pace, progress)?;
         let traced = Instant::now();
         // Bring the picture home.

@@ -29,7 +29,8 @@ impl Variant {
             float: settings.float,
             intersector: settings.intersector,
             aovs: settings.aovs,
-            stack_size: settings.depth.max(1),
+            // The deepest traced ray leaves its reflection waiting, if only to be cut.
+            stack_size: settings.depth + 1,
             bvh_stack: bvh_depth.saturating_sub(1).max(1),
         }
     }

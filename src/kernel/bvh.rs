@@ -134,37 +134,31 @@ pub fn intersect<R: Real>(world: &World, ray: &Ray<R>, limit: R) -> Hit<R> {
         let node = &world.scene.nodes[at as usize];
         let a = slabs(ray, Vec3::load(node.a_lo), Vec3::load(node.a_hi));
         let b = slabs(ray, Vec3::load(node.b_lo), Vec3::load(node.b_hi));
-        // Nearer child first.
+        // Nearer child first; leaves at once.
         let swap = b.entry < a.entry;
-        let (near, far) = if swap { (b, a) } else { (a, b) };
-        let (near_first, near_count) =
-            if swap { (node.b_first, node.b_count) } else { (node.a_first, node.a_count) };
-        let (far_first, far_count) =
-            if swap { (node.a_first, node.a_count) } else { (node.b_first, node.b_count) };
-        // Leaves at once.
-        let mut near_inner = near.entry <= near.exit && near.entry <= best.t;
-        if near_inner && near_count > 0 {
-            for i in near_first..near_first + near_count {
-                best = nearer(world, ray, i, best);
+        let mut inner = [false; 2];
+        let mut first = [0u32; 2];
+        for side in 0..2 {
+            let is_a = (side == 0) != swap;
+            let (span, count) = if is_a { (a, node.a_count) } else { (b, node.b_count) };
+            first[side] = if is_a { node.a_first } else { node.b_first };
+            let hit = span.entry <= span.exit && span.entry <= best.t;
+            inner[side] = hit && count == 0;
+            if hit {
+                for i in first[side]..first[side] + count {
+                    best = nearer(world, ray, i, best);
+                }
             }
-            near_inner = false;
-        }
-        let mut far_inner = far.entry <= far.exit && far.entry <= best.t;
-        if far_inner && far_count > 0 {
-            for i in far_first..far_first + far_count {
-                best = nearer(world, ray, i, best);
-            }
-            far_inner = false;
         }
         // Descend, the farther one waits.
-        if near_inner && far_inner {
-            stack[size] = far_first;
+        if inner[0] && inner[1] {
+            stack[size] = first[1];
             size += 1;
-            at = near_first;
-        } else if near_inner {
-            at = near_first;
-        } else if far_inner {
-            at = far_first;
+            at = first[0];
+        } else if inner[0] {
+            at = first[0];
+        } else if inner[1] {
+            at = first[1];
         } else if size > 0 {
             size -= 1;
             at = stack[size];
@@ -188,31 +182,28 @@ pub fn occluded<R: Real>(world: &World, ray: &Ray<R>, limit: R) -> bool {
         let node = &world.scene.nodes[at as usize];
         let a = slabs(ray, Vec3::load(node.a_lo), Vec3::load(node.a_hi));
         let b = slabs(ray, Vec3::load(node.b_lo), Vec3::load(node.b_hi));
-        let mut a_inner = a.entry <= a.exit && a.entry <= limit;
-        if a_inner && node.a_count > 0 {
-            for i in node.a_first..node.a_first + node.a_count {
-                if nearer(world, ray, i, start).index != NONE {
-                    return true;
+        let mut inner = [false; 2];
+        for side in 0..2 {
+            let is_a = side == 0;
+            let (span, count) = if is_a { (a, node.a_count) } else { (b, node.b_count) };
+            let first = if is_a { node.a_first } else { node.b_first };
+            let hit = span.entry <= span.exit && span.entry <= limit;
+            inner[side] = hit && count == 0;
+            if hit {
+                for i in first..first + count {
+                    if nearer(world, ray, i, start).index != NONE {
+                        return true;
+                    }
                 }
             }
-            a_inner = false;
         }
-        let mut b_inner = b.entry <= b.exit && b.entry <= limit;
-        if b_inner && node.b_count > 0 {
-            for i in node.b_first..node.b_first + node.b_count {
-                if nearer(world, ray, i, start).index != NONE {
-                    return true;
-                }
-            }
-            b_inner = false;
-        }
-        if a_inner && b_inner {
+        if inner[0] && inner[1] {
             stack[size] = node.b_first;
             size += 1;
             at = node.a_first;
-        } else if a_inner {
+        } else if inner[0] {
             at = node.a_first;
-        } else if b_inner {
+        } else if inner[1] {
             at = node.b_first;
         } else if size > 0 {
             size -= 1;

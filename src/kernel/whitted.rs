@@ -121,23 +121,38 @@ pub fn trace_tree<R: Real>(world: &World, stack: &mut Vec<Branch<R>>, direction:
         kind: RAY_PRIMARY,
     });
     while let Some(branch) = stack.pop() {
-        let mut current = branch;
         // Refraction goes on, reflection waits: one entry a branching level.
-        loop {
-            count_ray(&mut sample, current.kind);
-            let landing = find_surface(world, &current);
-            if !landing.found {
-                escape(world, &mut sample, &current, &landing);
-                break;
-            }
-            let next = shade(world, &mut sample, stack, &current, &landing);
-            match next {
-                Some(child) => current = child,
-                None => break,
-            }
+        let mut next = Some(branch);
+        while let Some(current) = next {
+            next = follow(world, &mut sample, stack, &current);
         }
     }
     sample
+}
+
+/// Trace one branch, if that is worth it, and shade what it meets; returns the child to go on with.
+pub fn follow<R: Real>(
+    world: &World,
+    sample: &mut Sample<R>,
+    stack: &mut Vec<Branch<R>>,
+    branch: &Branch<R>,
+) -> Option<Branch<R>> {
+    let mut cut = !worth_tracing(world, branch);
+    if !cut {
+        count_ray(sample, branch.kind);
+        let landing = find_surface(world, branch);
+        if landing.found {
+            return shade(world, sample, stack, branch, &landing);
+        }
+        cut = landing.stuck;
+    }
+    see_background(world, sample, branch, cut);
+    None
+}
+
+/// Whether a branch is traced: it is neither too deep nor too faint.
+pub fn worth_tracing<R: Real>(world: &World, branch: &Branch<R>) -> bool {
+    branch.depth <= world.view.depth && max3(branch.weight) >= R::real(world.view.cutoff)
 }
 
 /// Count a traced ray.
@@ -180,14 +195,21 @@ pub fn find_surface<R: Real>(world: &World, branch: &Branch<R>) -> Landing<R> {
     landing
 }
 
-/// A branch that meets nothing sees the background; a stuck one too, and counts as cut.
-pub fn escape<R: Real>(world: &World, sample: &mut Sample<R>, branch: &Branch<R>, landing: &Landing<R>) {
-    if landing.stuck {
-        cut(world, sample, branch);
-    } else {
-        sample.radiance = sample.radiance + branch.weight * background(world, branch.direction);
+/// A branch that meets nothing sees the background. A cut one takes it too, and is accounted for.
+pub fn see_background<R: Real>(world: &World, sample: &mut Sample<R>, branch: &Branch<R>, cut: bool) {
+    sample.radiance = sample.radiance + branch.weight * background(world, branch.direction);
+    if !cut {
         sample.primitive_hash = mix_hash(sample.primitive_hash, branch.kind);
         sample.body_hash = mix_hash(sample.body_hash, branch.kind);
+        return;
+    }
+    let weight = max3(branch.weight);
+    sample.dropped = sample.dropped + weight;
+    // The true tree goes down to MAX_DEPTH, that is MAX_DEPTH + 1 − depth levels from here.
+    if branch.depth <= MAX_DEPTH {
+        let levels = MAX_DEPTH + 1 - branch.depth;
+        let row = world.view.radiance_bound[(levels >> 2) as usize];
+        sample.bound = sample.bound + weight * R::real(row[(levels & 3) as usize]);
     }
 }
 
@@ -236,14 +258,12 @@ pub fn shade<R: Real>(
         weight: weight * scattered.transmission,
         kind: RAY_REFRACTION,
     };
-    let reflects = scattered.reflects && keep_or_cut(world, sample, &reflection);
-    let refracts = scattered.transmits && keep_or_cut(world, sample, &refraction);
-    if refracts && reflects {
+    if scattered.transmits && scattered.reflects {
         stack.push(reflection);
     }
-    if refracts {
+    if scattered.transmits {
         Some(refraction)
-    } else if reflects {
+    } else if scattered.reflects {
         Some(reflection)
     } else {
         None
@@ -255,26 +275,4 @@ pub fn note_path<R: Real>(sample: &mut Sample<R>, kind: u32, surface: &Surface<R
     let side = if surface.front { 4 } else { 8 };
     sample.primitive_hash = mix_hash(mix_hash(mix_hash(sample.primitive_hash, surface.id), kind), seen);
     sample.body_hash = mix_hash(mix_hash(mix_hash(sample.body_hash, surface.body), kind + side), seen);
-}
-
-/// Whether a child is to be traced; if not, it is cut.
-pub fn keep_or_cut<R: Real>(world: &World, sample: &mut Sample<R>, child: &Branch<R>) -> bool {
-    if child.depth <= world.view.depth && max3(child.weight) >= R::real(world.view.cutoff) {
-        return true;
-    }
-    cut(world, sample, child);
-    false
-}
-
-/// A cut ray takes the background's radiance in its direction, and is accounted for.
-pub fn cut<R: Real>(world: &World, sample: &mut Sample<R>, branch: &Branch<R>) {
-    let weight = max3(branch.weight);
-    sample.radiance = sample.radiance + branch.weight * background(world, branch.direction);
-    sample.dropped = sample.dropped + weight;
-    // The true tree goes down to MAX_DEPTH, that is MAX_DEPTH + 1 − depth levels from here.
-    if branch.depth <= MAX_DEPTH {
-        let levels = MAX_DEPTH + 1 - branch.depth;
-        let row = world.view.radiance_bound[(levels >> 2) as usize];
-        sample.bound = sample.bound + weight * R::real(row[(levels & 3) as usize]);
-    }
 }

@@ -47,6 +47,8 @@ shared! {
     MAX_BVH_DEPTH: u32 = 64;
     /// Side of the square block of pixels that one workgroup traces.
     BLOCK: u32 = 8;
+    /// Invocations of one workgroup of a probe.
+    PROBE_GROUP: u32 = 64;
     /// Interfaces without effect that a ray, or interfaces of any kind that a shadow ray, may pass;
     /// one that met this many is stuck and is cut.
     MAX_PASSES: u32 = 4096;

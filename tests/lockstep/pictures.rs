@@ -7,7 +7,7 @@ use snellius::film::{Frame, Progress, Renderer};
 use snellius::gpu::{GpuError, GpuOptions, GpuRenderer};
 use snellius::layout::{FlatScene, Float, Intersector, Precision, Settings, Texel, View};
 
-use super::devices::on_each;
+use super::devices::{find, on_each};
 use super::scene;
 
 fn settings(view: &View) -> Settings {
@@ -60,7 +60,7 @@ fn a_triangle_has_the_same_bits_on_every_device() {
 
 #[test]
 fn a_crop_is_a_part_of_the_whole() {
-    on_each(|options| {
+    find("llvmpipe").iter().for_each(|options| {
         let scene = scene::triangle();
         let whole = scene::view(&scene, 40, 30, 2);
         let mut renderer = GpuRenderer::new(&scene, options).unwrap();
@@ -86,7 +86,7 @@ impl Progress for Stop {
 
 #[test]
 fn a_stop_keeps_what_is_finished() {
-    on_each(|options| {
+    find("llvmpipe").iter().for_each(|options| {
         let scene = scene::triangle();
         let view = scene::view(&scene, 640, 480, 1);
         let mut renderer = GpuRenderer::new(&scene, options).unwrap();
@@ -97,6 +97,22 @@ fn a_stop_keeps_what_is_finished() {
         let missing = stopped.texels.iter().filter(|texel| **texel == Texel::default()).count();
         assert!(finished > 0 && finished + missing == whole.texels.len(), "{finished} + {missing}");
     });
+}
+
+#[test]
+fn a_picture_over_the_adapters_limit_is_refused_with_both_figures() {
+    let Some(options) = find("llvmpipe") else { return };
+    let scene = scene::triangle();
+    let mut renderer = GpuRenderer::new(&scene, &options).unwrap();
+    let side = 1 << 15;
+    let view = scene::view(&scene, side, side, 1);
+    let Err(error) = renderer.render(&view, &settings(&view), &()) else { panic!("drawn all the same") };
+    let GpuError::TooLarge { needed, limit, .. } = error else { panic!("{error}") };
+    assert_eq!(needed, 32 + u64::from(side) * u64::from(side) * 64);
+    assert!(limit < needed && error.exit_code() == 2);
+    assert!(
+        error.to_string().contains(&needed.to_string()) && error.to_string().contains(&limit.to_string())
+    );
 }
 
 #[test]

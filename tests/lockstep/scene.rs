@@ -48,7 +48,7 @@ pub(super) fn triangle() -> FlatScene {
         bvh_depth: 1,
         ambient: [0.0; 3],
         horizon: [0.25, 0.5, 1.0],
-        zenith: [0.25, 0.5, 1.0],
+        zenith: [1.0, 0.5, 0.25],
         environment: None,
         radiance_bound: vec![1.0; 66],
     }

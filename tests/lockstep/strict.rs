@@ -1,6 +1,6 @@
 //! Strict float: what an adapter computes is what the CPU computes, and without it that is not so.
 
-use snellius::gpu::{GpuOptions, Prober, Variant};
+use snellius::gpu::{GpuOptions, Prober, SOURCES, Variant};
 use snellius::layout::{Float, Intersector, Precision};
 
 use super::devices::on_each;
@@ -18,21 +18,17 @@ pub(super) const PLAIN: Variant = Variant {
 
 /// a·b + a·c, which every compiler would rather compute as a·(b + c).
 const SUM_OF_PRODUCTS: &str = "
-    struct Range { first: u32, end: u32, stride: u32, reserved: u32 }
-    @group(0) @binding(7) var<storage, read_write> records: array<u32>;
-    @group(0) @binding(9) var<storage, read> range: Range;
+    import package::constants::PROBE_GROUP;
+    import package::probe::{begin, put, take};
 
-    @compute @workgroup_size(64)
+    @compute @workgroup_size(PROBE_GROUP)
     fn probe_sum(@builtin(global_invocation_id) id: vec3u) {
-        let record = range.first + id.x;
-        if record >= range.end {
-            return;
+        if begin(id.x) {
+            let a = take();
+            let b = take();
+            let c = take();
+            put(a * b + a * c);
         }
-        let at = record * range.stride;
-        let a = bitcast<f32>(records[at]);
-        let b = bitcast<f32>(records[at + 1u]);
-        let c = bitcast<f32>(records[at + 2u]);
-        records[at] = bitcast<u32>(a * b + a * c);
     }
 ";
 
@@ -54,7 +50,8 @@ fn differing_sums(options: &GpuOptions, float: Float) -> usize {
     let inputs = random_floats(3 << 16);
     let mut records: Vec<u32> = inputs.iter().map(|x| x.to_bits()).collect();
     let variant = Variant { float, ..PLAIN };
-    prober.run(&[("probe", SUM_OF_PRODUCTS)], ("probe", "probe_sum"), &variant, 3, &mut records).unwrap();
+    let sources: Vec<_> = SOURCES.iter().copied().chain([("sum", SUM_OF_PRODUCTS)]).collect();
+    prober.run(&sources, ("sum", "probe_sum"), &variant, 3, &mut records).unwrap();
     let expected = inputs.chunks_exact(3).map(|abc| (abc[0] * abc[1] + abc[0] * abc[2]).to_bits());
     records.chunks_exact(3).zip(expected).filter(|(record, bits)| record[0] != *bits).count()
 }

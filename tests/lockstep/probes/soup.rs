@@ -121,7 +121,7 @@ fn attribute(triangle: &Triangle) -> Attribute {
     let body = id % 4;
     let other = match id % 7 {
         0 => (body + 1) % 3,
-        1 => (body + 1) % 3 | OPPOSITE,
+        1 => ((body + 1) % 3) | OPPOSITE,
         _ => NONE,
     };
     let [e1, e2] = [triangle.v1, triangle.v2].map(|v| [0, 1, 2].map(|a| v[a] - triangle.v0[a]));
@@ -132,7 +132,7 @@ fn attribute(triangle: &Triangle) -> Attribute {
         material: body + 1,
         body,
         other,
-        corners: if id % 2 == 0 { 3 * id } else { NONE },
+        corners: if id.is_multiple_of(2) { 3 * id } else { NONE },
         reserved: 0,
     }
 }
