@@ -3,16 +3,16 @@
 import package::real::{real, vec3r, least, greatest};
 import package::math::arctangent;
 import package::texture::{blend, float_word, footprint};
-import package::bindings::view;
+import package::bindings::frame;
 import package::constants::{INV_PI, NONE};
 
 // Radiance from infinity along a unit direction.
 fn background(direction: vec3r) -> vec3r {
-    if view.environment != NONE {
+    if frame.view.environment != NONE {
         return environment(direction);
     }
-    let horizon = vec3r(view.horizon);
-    let zenith = vec3r(view.zenith);
+    let horizon = vec3r(frame.view.horizon);
+    let zenith = vec3r(frame.view.zenith);
     let t = least(greatest(direction.y, 0.0), 1.0);
     return horizon + (zenith - horizon) * t;
 }
@@ -22,15 +22,15 @@ fn environment(d: vec3r) -> vec3r {
     let azimuth = arctangent(d.x, -d.z);
     let polar = arctangent(sqrt(d.x * d.x + d.z * d.z), d.y);
     // Turns from the left edge, and from the top.
-    let u = azimuth * INV_PI * 0.5 + 0.5 + real(view.environment_turn);
+    let u = azimuth * INV_PI * 0.5 + 0.5 + real(frame.view.environment_turn);
     let v = polar * INV_PI;
-    let width = view.environment_width;
+    let width = frame.view.environment_width;
     let x = (u - floor(u)) * real(i32(width)) - 0.5;
-    let rows = real(i32(view.environment_height));
+    let rows = real(i32(frame.view.environment_height));
     let y = least(greatest(v * rows - 0.5, 0.0), rows - 1.0);
     let x0 = floor(x);
     let y0 = floor(y);
-    let f = footprint(x0, x - x0, y0, y - y0, width, view.environment_height);
+    let f = footprint(x0, x - x0, y0, y - y0, width, frame.view.environment_height);
     let color = blend(
         linear_texel(f.y.x * width + f.x.x),
         linear_texel(f.y.x * width + f.x.y),
@@ -39,11 +39,11 @@ fn environment(d: vec3r) -> vec3r {
         f.fx,
         f.fy,
     );
-    return color * real(view.environment_intensity);
+    return color * real(frame.view.environment_intensity);
 }
 
 // Texel `i` of the picture.
 fn linear_texel(i: u32) -> vec3r {
-    let first = view.environment + i * 3u;
+    let first = frame.view.environment + i * 3u;
     return vec3r(float_word(first), float_word(first + 1u), float_word(first + 2u));
 }

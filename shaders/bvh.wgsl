@@ -3,8 +3,8 @@
 import package::real::{real, vec3r, least, greatest};
 import package::triangle::{Shear, shear_of, intersect_triangle};
 import package::records::Triangle;
-import package::bindings::{nodes, triangles, view};
-import package::constants::{BVH_STACK, FAR, LEAST_DIRECTION, NONE, SLAB_PADDING};
+import package::bindings::{frame, nodes, triangles};
+import package::constants::{BVH_STACK, FAR, LEAST_DIRECTION, LOOP_STEPS, NODE_STEPS, NONE, SLAB_PADDING};
 
 // A ray, prepared for boxes and triangles.
 struct Ray {
@@ -35,10 +35,13 @@ struct Span {
 // Declared once: a function's own array would be cleared at every call.
 var<private> bvh_stack: array<u32, BVH_STACK>;
 
+// Passes through loops so far, those of the leaves' triangles too: an invocation rests when it has made enough.
+var<private> steps: u32;
+
 // Prepare a ray.
 fn make_ray(origin: vec3r, direction: vec3r) -> Ray {
-    let to_lo = abs(origin - vec3r(view.scene_lo));
-    let to_hi = abs(origin - vec3r(view.scene_hi));
+    let to_lo = abs(origin - vec3r(frame.view.scene_lo));
+    let to_hi = abs(origin - vec3r(frame.view.scene_hi));
     let reach = greatest(to_lo.x, to_hi.x) + greatest(to_lo.y, to_hi.y) + greatest(to_lo.z, to_hi.z);
     let delta = vec3r(reach * SLAB_PADDING);
     let reciprocal =
@@ -101,6 +104,7 @@ fn intersect(ray: Ray, limit: real) -> Hit {
     var at = 0u;
     loop {
         // Meet both children.
+        steps += NODE_STEPS;
         let node = nodes[at];
         let a = slabs(ray, vec3r(node.a_lo), vec3r(node.a_hi));
         let b = slabs(ray, vec3r(node.b_lo), vec3r(node.b_hi));
@@ -119,6 +123,7 @@ fn intersect(ray: Ray, limit: real) -> Hit {
             let enters = hit && count == 0u;
             inner = select(vec2<bool>(inner.x, enters), vec2<bool>(enters, inner.y), side == 0u);
             if hit {
+                steps += count + LOOP_STEPS;
                 for (var i = begin; i < begin + count; i++) {
                     best = nearer(ray, i, best);
                 }
@@ -153,6 +158,7 @@ fn occluded(ray: Ray, limit: real) -> bool {
     var at = 0u;
     var found = false;
     while !found {
+        steps += NODE_STEPS;
         let node = nodes[at];
         let a = slabs(ray, vec3r(node.a_lo), vec3r(node.a_hi));
         let b = slabs(ray, vec3r(node.b_lo), vec3r(node.b_hi));
@@ -167,6 +173,7 @@ fn occluded(ray: Ray, limit: real) -> bool {
             let enters = hit && count == 0u;
             inner = select(vec2<bool>(inner.x, enters), vec2<bool>(enters, inner.y), is_a);
             if hit {
+                steps += count + LOOP_STEPS;
                 for (var i = begin; i < begin + count && !found; i++) {
                     found = nearer(ray, i, start).index != NONE;
                 }

@@ -3,7 +3,7 @@
 import package::real::{real, vec3r};
 import package::whitted::Sample;
 import package::records::Texel;
-import package::bindings::view;
+import package::bindings::frame;
 import package::constants::LEAST_NORMAL;
 
 // Add sample `index` to a pixel's running sums; the last one divides them by the number of samples.
@@ -17,8 +17,8 @@ fn add(before: Texel, sample: Sample, index: u32) -> Texel {
         texel.primitive_hash = sample.primitive_hash;
         texel.body_hash = sample.body_hash;
     }
-    if index + 1u == view.samples {
-        let n = f32(i32(view.samples));
+    if index + 1u == frame.view.samples {
+        let n = f32(i32(frame.view.samples));
         texel.radiance.x = flush(real(texel.radiance.x / n));
         texel.radiance.y = flush(real(texel.radiance.y / n));
         texel.radiance.z = flush(real(texel.radiance.z / n));

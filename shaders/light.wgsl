@@ -1,14 +1,14 @@
 // Stop 5 of 7: light. Twin of src/kernel/light.rs.
 
 import package::real::{real, vec3r, least};
-import package::bvh::{intersect, make_ray, occluded};
+import package::bvh::{intersect, make_ray, occluded, steps};
 import package::material::shadow_transmission;
 import package::math::{dot3, length3, max3, power};
 import package::media::{attenuation, cross_face, current_medium};
 import package::surface::{Surface, resolve, spawn_behind};
 import package::texture::texture_color;
-import package::bindings::{lights, materials, view};
-import package::constants::{MAX_PASSES, NONE};
+import package::bindings::{frame, materials};
+import package::constants::{LOOP_STEPS, MAX_PASSES, NONE};
 
 // What the point lights and the ambient light give a surface.
 struct Direct {
@@ -27,13 +27,14 @@ fn direct(surface: Surface, direction: vec3r, media: u32) -> Direct {
     let ambient = vec3r(m.ambient) * tint;
     let diffuse = vec3r(m.diffuse) * tint;
     let specular = vec3r(m.specular);
-    var result = Direct(ambient * vec3r(view.ambient), 0u, 0u);
+    var result = Direct(ambient * vec3r(frame.view.ambient), 0u, 0u);
     if max3(diffuse) <= 0.0 && max3(specular) <= 0.0 {
         return result;
     }
     let origin = surface.shadow_point + surface.face_normal * surface.offset;
-    for (var j = 0u; j < view.lights; j++) {
-        let position = vec3r(lights[j].position);
+    for (var j = 0u; j < frame.view.lights; j++) {
+        steps += LOOP_STEPS;
+        let position = vec3r(frame.lights[j].position);
         let to_light = position - origin;
         let distance = length3(to_light);
         let l = vec3r(to_light.x / distance, to_light.y / distance, to_light.z / distance);
@@ -50,8 +51,8 @@ fn direct(surface: Surface, direction: vec3r, media: u32) -> Direct {
             continue;
         }
         result.seen ^= 1u << (j & 31u);
-        var intensity = vec3r(lights[j].intensity);
-        if lights[j].inverse_square != 0u {
+        var intensity = vec3r(frame.lights[j].intensity);
+        if frame.lights[j].inverse_square != 0u {
             let d2 = distance * distance;
             intensity = vec3r(intensity.x / d2, intensity.y / d2, intensity.z / d2);
         }
@@ -73,7 +74,7 @@ fn phong(n: vec3r, l: vec3r, direction: vec3r, cosine: real, shininess: real, sp
 // Tj: what comes straight, unrefracted, from a light to a point in the given media, per channel.
 fn transmittance(origin: vec3r, l: vec3r, distance: real, light: vec3r, media: u32) -> vec3r {
     // Where every body is opaque one blocker decides, whichever it is.
-    if view.transmissive_bodies == 0u {
+    if frame.view.transmissive_bodies == 0u {
         return select(vec3r(1.0), vec3r(0.0), occluded(make_ray(origin, l), distance));
     }
     var result = vec3r(1.0);
@@ -81,6 +82,7 @@ fn transmittance(origin: vec3r, l: vec3r, distance: real, light: vec3r, media: u
     var start = origin;
     var left = distance;
     for (var i = 0u; i < MAX_PASSES; i++) {
+        steps += LOOP_STEPS;
         let ray = make_ray(start, l);
         let hit = intersect(ray, left);
         let medium = current_medium(mask);

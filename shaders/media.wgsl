@@ -2,7 +2,7 @@
 
 import package::real::{real, vec3r};
 import package::math::exp_neg;
-import package::bindings::{attributes, materials, view};
+import package::bindings::{attributes, frame, materials};
 import package::constants::{NONE, OPPOSITE};
 
 // Material index of the medium: that of the lowest set bit, 0 (air) where none is set.
@@ -11,7 +11,7 @@ fn current_medium(mask: u32) -> u32 {
         return 0u;
     }
     let body = countTrailingZeros(mask);
-    return view.media[body >> 2][body & 3];
+    return frame.view.media[body >> 2][body & 3];
 }
 
 // The mask behind a face, for a ray that meets it from its front or its back.
@@ -28,7 +28,7 @@ fn cross_face(mask: u32, id: u32, front: bool) -> u32 {
 
 // The mask with a body's bit set or cleared; opaque bodies have none.
 fn set_body(mask: u32, body: u32, inside: bool) -> u32 {
-    if body >= view.transmissive_bodies {
+    if body >= frame.view.transmissive_bodies {
         return mask;
     }
     let bit = 1u << body;

@@ -2,29 +2,29 @@
 
 import package::real::{real, vec3r};
 
-// Which records a dispatch works on.
-struct Range {
+// Which records a dispatch works on, and all of them.
+struct Records {
     first: u32, end: u32, stride: u32, reserved: u32,
+    words: array<u32>,
 }
 
-@group(0) @binding(7) var<storage, read_write> records: array<u32>;
-@group(0) @binding(9) var<storage, read> range: Range;
+@group(0) @binding(7) var<storage, read_write> records: Records;
 
 var<private> reading: u32;
 var<private> writing: u32;
 
 // Go to the record of an invocation; false if there is none.
 fn begin(invocation: u32) -> bool {
-    let record = range.first + invocation;
-    reading = record * range.stride;
+    let record = records.first + invocation;
+    reading = record * records.stride;
     writing = reading;
-    return record < range.end;
+    return record < records.end;
 }
 
 // The next word.
 fn take_word() -> u32 {
     reading++;
-    return records[reading - 1u];
+    return records.words[reading - 1u];
 }
 
 // The next number.
@@ -42,7 +42,7 @@ fn take3() -> vec3r {
 
 // Write a word over the next word; all is taken by then.
 fn put_word(word: u32) {
-    records[writing] = word;
+    records.words[writing] = word;
     writing++;
 }
 

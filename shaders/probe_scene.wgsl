@@ -12,7 +12,6 @@ import package::math::length3;
 import package::media::{attenuation, cross_face, current_medium};
 import package::surface::{Surface, resolve, spawn_before, spawn_behind};
 import package::texture::texture_color;
-import package::whitted::{sample, trace_tree};
 
 // What a ray meets, if `found`.
 struct Meeting {
@@ -200,19 +199,5 @@ fn probe_texture_color(@builtin(global_invocation_id) id: vec3u) {
 fn probe_background(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         put3(background(take3()));
-    }
-}
-
-@compute @workgroup_size(PROBE_GROUP)
-fn probe_trace_tree(@builtin(global_invocation_id) id: vec3u) {
-    if begin(id.x) {
-        let x = real(i32(take_word()));
-        trace_tree(primary_ray(x, real(i32(take_word()))));
-        put3(sample.radiance);
-        put(sample.dropped);
-        put(sample.bound);
-        put_word(sample.rays);
-        put_word(sample.primitive_hash);
-        put_word(sample.body_hash);
     }
 }

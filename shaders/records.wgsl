@@ -1,6 +1,7 @@
 // The records in the buffers: see src/layout/records.rs and src/layout/view.rs for what they mean.
 
-import package::constants::{MEDIA_ROWS, BOUND_ROWS};
+import package::constants::{BOUND_ROWS, LANES, MEDIA_ROWS, STACK_SIZE};
+import package::whitted::{Branch, Sample};
 
 struct Node {
     a_lo: vec3f, a_first: u32,
@@ -66,9 +67,16 @@ struct View {
     radiance_bound: array<vec4f, BOUND_ROWS>,
 }
 
-// Which blocks and samples a dispatch traces.
+// What changes from frame to frame.
+struct Frame {
+    view: View,
+    lights: array<Light>,
+}
+
+// Which blocks and samples a dispatch traces, and how far.
 struct Tile {
     first_block: u32, block_count: u32, first_sample: u32, sample_count: u32,
+    step_budget: u32, resume: u32, canary_rounds: u32, canary_result: u32,
 }
 
 // A pixel as the film keeps it.
@@ -77,11 +85,25 @@ struct FilmTexel {
     @if(aovs) aov: Aov,
 }
 
-// The film, headed by what a submission reports.
-struct Film {
-    // Invocations that came to their end.
-    done: atomic<u32>,
+// An invocation at rest: the tree in work, and which sample it belongs to.
+struct Lane {
+    sample: Sample,
+    sample_index: u32,
+    stack_size: u32,
+    stack: array<Branch, STACK_SIZE>,
+}
+
+// What a dispatch is told, and what it reports.
+struct FilmHead {
+    tile: Tile,
+    done: atomic<u32>, paused: atomic<u32>, cut_short: atomic<u32>,
     primary: atomic<u32>, reflection: atomic<u32>, refraction: atomic<u32>, shadow: atomic<u32>,
-    reserved0: u32, reserved1: u32, reserved2: u32,
+    reserved: u32,
+}
+
+// The film, with the invocations of one dispatch.
+struct Film {
+    head: FilmHead,
+    lanes: array<Lane, LANES>,
     texels: array<FilmTexel>,
 }

@@ -1,23 +1,38 @@
 // Entry point: one workgroup a block of pixels.
 
-import package::whitted::trace_pixel;
-import package::bindings::{film, tile, view};
-import package::constants::{BLOCK, RAY_PRIMARY, RAY_REFLECTION, RAY_REFRACTION, RAY_SHADOW};
+import package::whitted::{lane, trace_pixel};
+import package::bindings::{film, frame};
+import package::constants::BLOCK;
 
 @compute @workgroup_size(BLOCK, BLOCK)
-fn render(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local: vec3u) {
-    let columns = (view.crop.z + BLOCK - 1u) / BLOCK;
-    let block = tile.first_block + group.x;
+fn render(
+    @builtin(workgroup_id) group: vec3u,
+    @builtin(local_invocation_id) local: vec3u,
+    @builtin(local_invocation_index) index: u32,
+) {
+    let crop = frame.view.crop;
+    let columns = (crop.z + BLOCK - 1u) / BLOCK;
+    let block = film.head.tile.first_block + group.x;
     let x = (block % columns) * BLOCK + local.x;
     let y = (block / columns) * BLOCK + local.y;
-    if x < view.crop.z && y < view.crop.w {
-        let pixel = vec2u(view.crop.x + x, view.crop.y + y);
-        let end = tile.first_sample + tile.sample_count;
-        let rays = trace_pixel(pixel, tile.first_sample, end, y * view.crop.z + x);
-        atomicAdd(&film.primary, rays[RAY_PRIMARY]);
-        atomicAdd(&film.reflection, rays[RAY_REFLECTION]);
-        atomicAdd(&film.refraction, rays[RAY_REFRACTION]);
-        atomicAdd(&film.shadow, rays[RAY_SHADOW]);
+    if x < crop.z && y < crop.w {
+        lane = group.x * BLOCK * BLOCK + index;
+        if !trace_pixel(vec2u(crop.x + x, crop.y + y), y * crop.z + x) {
+            atomicAdd(&film.head.paused, 1u);
+        }
     }
-    atomicAdd(&film.done, 1u);
+    if !canary_lives() {
+        atomicAdd(&film.head.cut_short, 1u);
+    }
+    atomicAdd(&film.head.done, 1u);
+}
+
+// Whether a loop may still make its rounds: some drivers end the loops of an invocation that has made too many, without a
+// word, and then this one ends early too.
+fn canary_lives() -> bool {
+    var x = 0u;
+    for (var i = 0u; i < film.head.tile.canary_rounds; i++) {
+        x = x * 3u + 1u;
+    }
+    return x == film.head.tile.canary_result;
 }

@@ -2,7 +2,7 @@
 
 import package::real::{real, vec3r};
 import package::background::background;
-import package::bvh::{far, intersect, make_ray};
+import package::bvh::{far, intersect, make_ray, steps};
 import package::camera::primary_ray;
 import package::film::{add, flush, flush3};
 import package::hash::{mix_hash, sample_offset};
@@ -10,11 +10,11 @@ import package::light::direct;
 import package::material::scatter;
 import package::math::max3;
 import package::media::{attenuation, cross_face, current_medium};
-import package::records::{Aov, FilmTexel};
+import package::records::Aov;
 import package::surface::{Surface, resolve, spawn_before, spawn_behind};
-import package::bindings::{film, materials, view};
+import package::bindings::{film, frame, materials};
 import package::constants::{
-    MAX_DEPTH, MAX_PASSES, NONE, RAY_PRIMARY, RAY_REFLECTION, RAY_REFRACTION, RAY_SHADOW, STACK_SIZE,
+    LOOP_STEPS, MAX_DEPTH, MAX_PASSES, NONE, RAY_PRIMARY, RAY_REFLECTION, RAY_REFRACTION, RAY_SHADOW,
 };
 
 // A ray of the tree that is still to be traced.
@@ -55,34 +55,54 @@ struct Next {
     branch: Branch,
 }
 
-// One entry a branching level: refraction goes on, reflection waits. Declared once, cleared once.
-var<private> stack: array<Branch, STACK_SIZE>;
-var<private> stack_size: u32;
 var<private> sample: Sample;
+var<private> stack_size: u32;
+// Which of the film's lanes is this invocation's: its stack lies there, so that a rest costs nothing.
+var<private> lane: u32;
 
-// Trace samples [first, end) of a pixel of the whole picture onto texel `slot` of the film.
-fn trace_pixel(pixel: vec2u, first: u32, end: u32, slot: u32) -> vec4u {
-    var rays = vec4u(0u);
-    var texel = film.texels[slot].texel;
-    for (var i = first; i < end; i++) {
-        let offset = sample_offset(i);
-        let x = real(i32(pixel.x)) + offset[0];
-        let y = real(i32(pixel.y)) + offset[1];
-        trace_tree(primary_ray(x, y));
-        texel = add(texel, sample, i);
-        rays += sample.rays_by_kind;
+// Trace the tile's samples of a pixel of the whole picture onto texel `slot` of the film; false if it had to rest, to be
+// resumed by the next dispatch.
+fn trace_pixel(pixel: vec2u, slot: u32) -> bool {
+    let end = film.head.tile.first_sample + film.head.tile.sample_count;
+    var i = film.head.tile.first_sample;
+    var resumes = film.head.tile.resume != 0u;
+    if resumes {
+        i = film.lanes[lane].sample_index;
+        sample = film.lanes[lane].sample;
+        stack_size = film.lanes[lane].stack_size;
+    }
+    var finished = true;
+    for (; i < end; i++) {
+        if !resumes {
+            let offset = sample_offset(i);
+            let x = real(i32(pixel.x)) + offset[0];
+            let y = real(i32(pixel.y)) + offset[1];
+            start_tree(primary_ray(x, y));
+        }
+        resumes = false;
+        finished = trace_tree();
+        if !finished {
+            break;
+        }
+        film.texels[slot].texel = add(film.texels[slot].texel, sample, i);
         @if(aovs) {
             if i == 0u {
                 film.texels[slot].aov = sample.aov;
             }
         }
+        atomicAdd(&film.head.primary, sample.rays_by_kind[RAY_PRIMARY]);
+        atomicAdd(&film.head.reflection, sample.rays_by_kind[RAY_REFLECTION]);
+        atomicAdd(&film.head.refraction, sample.rays_by_kind[RAY_REFRACTION]);
+        atomicAdd(&film.head.shadow, sample.rays_by_kind[RAY_SHADOW]);
     }
-    film.texels[slot].texel = texel;
-    return rays;
+    film.lanes[lane].sample_index = i;
+    film.lanes[lane].sample = sample;
+    film.lanes[lane].stack_size = stack_size;
+    return finished;
 }
 
-// Trace the tree of one primary ray into `sample`.
-fn trace_tree(direction: vec3r) {
+// Begin the tree of one primary ray in `sample`.
+fn start_tree(direction: vec3r) {
     sample.radiance = vec3r(0.0);
     sample.dropped = 0.0;
     sample.bound = 0.0;
@@ -91,19 +111,42 @@ fn trace_tree(direction: vec3r) {
     sample.primitive_hash = 0u;
     sample.body_hash = 0u;
     @if(aovs) { sample.aov = Aov(vec3f(0.0), 0.0, NONE, NONE, vec2u(0u)); }
-    var current = Branch(vec3r(view.eye), view.start_media, direction, 0u, vec3r(1.0), RAY_PRIMARY);
     stack_size = 0u;
+    let view = frame.view;
+    push(Branch(vec3r(view.eye), view.start_media, direction, 0u, vec3r(1.0), RAY_PRIMARY));
+}
+
+// Leave a branch for later.
+fn push(branch: Branch) {
+    film.lanes[lane].stack[stack_size] = branch;
+    stack_size++;
+}
+
+// Trace what is left of the tree; false if the steps of this dispatch are used up before it is done.
+fn trace_tree() -> bool {
+    var current: Branch;
+    var waiting = false;
     loop {
-        let next = follow(current);
-        if next.found {
-            current = next.branch;
-        } else if stack_size > 0u {
-            stack_size--;
-            current = stack[stack_size];
-        } else {
-            break;
+        if steps >= film.head.tile.step_budget {
+            if waiting {
+                push(current);
+            }
+            return stack_size == 0u;
         }
+        steps += LOOP_STEPS;
+        // Refraction goes on, reflection waits: one entry a branching level.
+        if !waiting {
+            if stack_size == 0u {
+                break;
+            }
+            stack_size--;
+            current = film.lanes[lane].stack[stack_size];
+        }
+        let next = follow(current);
+        waiting = next.found;
+        current = next.branch;
     }
+    return true;
 }
 
 // Trace one branch, if that is worth it, and shade what it meets; returns the child to go on with.
@@ -126,7 +169,7 @@ fn follow(branch: Branch) -> Next {
 
 // Whether a branch is traced: it is neither too deep nor too faint.
 fn worth_tracing(branch: Branch) -> bool {
-    return branch.depth <= view.depth && max3(branch.weight) >= real(view.cutoff);
+    return branch.depth <= frame.view.depth && max3(branch.weight) >= real(frame.view.cutoff);
 }
 
 // Count a traced ray.
@@ -142,6 +185,7 @@ fn find_surface(branch: Branch) -> Landing {
     landing.media = branch.media;
     landing.distance = 0.0;
     for (var i = 0u; i < MAX_PASSES; i++) {
+        steps += LOOP_STEPS;
         let ray = make_ray(origin, branch.direction);
         let hit = intersect(ray, far());
         if hit.id == NONE {
@@ -175,7 +219,7 @@ fn see_background(branch: Branch, cut: bool) {
     // The true tree goes down to MAX_DEPTH, that is MAX_DEPTH + 1 - depth levels from here.
     if branch.depth <= MAX_DEPTH {
         let levels = MAX_DEPTH + 1u - branch.depth;
-        sample.bound = sample.bound + weight * real(view.radiance_bound[levels >> 2][levels & 3]);
+        sample.bound = sample.bound + weight * real(frame.view.radiance_bound[levels >> 2][levels & 3]);
     }
 }
 
@@ -205,8 +249,7 @@ fn shade(branch: Branch, landing: Landing) -> Next {
         spawn_behind(surface), landing.media_behind, scattered.refracted, depth, weight * scattered.transmission,
         RAY_REFRACTION);
     if scattered.transmits && scattered.reflects {
-        stack[stack_size] = reflection;
-        stack_size++;
+        push(reflection);
     }
     var next = Next(scattered.transmits || scattered.reflects, refraction);
     if !scattered.transmits {

@@ -88,6 +88,13 @@ pub struct AdapterReport {
 }
 
 impl AdapterReport {
+    /// Rounds of loops after which an invocation rests. On a card this bounds the time of a submission. Mesa's llvmpipe ends
+    /// all loops after 65535 rounds (`LP_MAX_TGSI_LOOP_ITERATIONS` of its gallivm), counting those of eight invocations
+    /// in step together, and the budget is only looked at between two rays.
+    pub(super) fn step_budget(&self) -> u32 {
+        if self.driver.contains("llvmpipe") { 4096 } else { 65_536 }
+    }
+
     pub(super) fn new(adapter: &wgpu::Adapter) -> Self {
         let (info, features, limits) = (adapter.get_info(), adapter.features(), adapter.limits());
         Self {

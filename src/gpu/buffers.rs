@@ -6,21 +6,19 @@ use bytemuck::{NoUninit, Zeroable, bytes_of, cast_slice};
 
 use super::GpuError;
 use super::context::Context;
-use super::pipeline::{SCENE, TILE, VIEW, WRITTEN, bind_group_layout};
+use super::pipeline::{FRAME, SCENE, WRITTEN, bind_group_layout};
 use crate::layout::{FlatScene, View};
 
 /// Storage buffers that the host fills.
 const STORED: wgpu::BufferUsages = wgpu::BufferUsages::STORAGE.union(wgpu::BufferUsages::COPY_DST);
-/// Bytes of the record at binding [`TILE`]: four words.
-const TILE_SIZE: u64 = 16;
 
-/// A scene in device memory, with the view and tile that it is traced by.
+/// A scene in device memory, with the view that it is traced by.
 pub(super) struct SceneBuffers {
     pub(super) layout: wgpu::BindGroupLayout,
     /// In the order of their bindings.
     arrays: Vec<wgpu::Buffer>,
-    view: wgpu::Buffer,
-    tile: wgpu::Buffer,
+    /// The view, then the lights.
+    frame: wgpu::Buffer,
 }
 
 impl SceneBuffers {
@@ -35,7 +33,6 @@ impl SceneBuffers {
             ("the triangles' attributes", bytes(&scene.attributes)),
             ("the triangles' corners", bytes(&scene.corners)),
             ("the materials", bytes(&scene.materials)),
-            ("the lights", bytes(&scene.lights)),
             ("the textures and the background", bytes(&scene.texels)),
         ];
         for (what, bytes) in &arrays {
@@ -46,28 +43,24 @@ impl SceneBuffers {
             context.write(&buffer, bytes)?;
             Ok(buffer)
         };
-        Ok(Self {
-            layout: bind_group_layout(&context.device),
-            arrays: arrays.iter().map(upload).collect::<Result<_, GpuError>>()?,
-            view: context.buffer("the view", size_of::<View>() as u64, STORED)?,
-            tile: context.buffer("the tile", TILE_SIZE, STORED)?,
-        })
+        let arrays = arrays.iter().map(upload).collect::<Result<_, GpuError>>()?;
+        let lights = bytes(&scene.lights);
+        let frame_size = size_of::<View>() + lights.len();
+        context.check_size("the lights", frame_size as u64)?;
+        let frame = context.buffer("the view and the lights", frame_size as u64, STORED)?;
+        context.queue.write_buffer(&frame, size_of::<View>() as u64, &lights);
+        Ok(Self { layout: bind_group_layout(&context.device), arrays, frame })
     }
 
     /// Trace by this view from the next submission on.
     pub(super) fn set_view(&self, context: &Context, view: &View) {
-        context.queue.write_buffer(&self.view, 0, bytes_of(view));
-    }
-
-    /// Trace this part in the next submission: a [`Tile`](crate::layout::Tile), or a probe's range.
-    pub(super) fn set_tile(&self, context: &Context, words: [u32; 4]) {
-        context.queue.write_buffer(&self.tile, 0, bytes_of(&words));
+        context.queue.write_buffer(&self.frame, 0, bytes_of(view));
     }
 
     /// The scene with the buffer that the shader writes.
     pub(super) fn bind(&self, context: &Context, written: &wgpu::Buffer) -> wgpu::BindGroup {
         let arrays = (0..SCENE).zip(&self.arrays);
-        let others = [(WRITTEN, written), (VIEW, &self.view), (TILE, &self.tile)];
+        let others = [(FRAME, &self.frame), (WRITTEN, written)];
         let entries: Vec<_> = arrays
             .chain(others)
             .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })

@@ -71,6 +71,15 @@ pub enum GpuError {
         /// The driver's words, or what was waited for.
         reason: String,
     },
+    /// The driver ended loops before their time: a ray with its shadow rays took more rounds than it allows.
+    #[error(
+        "{adapter} ends the loops of a shader after a fixed number of rounds, and a ray of this scene with its shadow rays \
+         takes more: use --backend cpu, or fewer lights"
+    )]
+    LoopLimit {
+        /// The adapter's name.
+        adapter: String,
+    },
     /// A submission was reported as finished, but part of it never ran.
     #[error(
         "the device was lost in silence: {done} of {expected} invocations of the tile at block {first_block} ran"
@@ -91,7 +100,7 @@ impl GpuError {
     #[must_use]
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::TooLarge { .. } => 2,
+            Self::TooLarge { .. } | Self::LoopLimit { .. } => 2,
             Self::NoAdapter { .. } | Self::NoF64 { .. } | Self::Shader { .. } | Self::Refused { .. } => 3,
             Self::OutOfMemory { .. } | Self::DeviceLost { .. } | Self::TileLost { .. } => 4,
         }

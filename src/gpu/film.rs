@@ -1,10 +1,10 @@
-//! The film in device memory: a head that counts, and the pixels.
+//! The film in device memory: a head that is told and counts, the stacks of one dispatch, and the pixels.
 
-use bytemuck::{Pod, Zeroable, cast_slice, from_bytes};
+use bytemuck::{Pod, Zeroable, bytes_of, cast_slice, from_bytes};
 
 use super::GpuError;
 use super::context::Context;
-use crate::layout::{Aov, FilmHead, Texel};
+use crate::layout::{Aov, FilmHead, Texel, Tile};
 
 /// Bytes of the head.
 const HEAD: u64 = size_of::<FilmHead>() as u64;
@@ -22,28 +22,31 @@ struct FullTexel {
 pub(super) struct FilmBuffer {
     pub(super) buffer: wgpu::Buffer,
     head: wgpu::Buffer,
+    /// Bytes before the texels.
+    texels_at: u64,
     pixels: u64,
     aovs: bool,
 }
 
 impl FilmBuffer {
-    /// Room for so many pixels.
+    /// Room for so many pixels, `texels_at` bytes from the start.
     ///
     /// # Errors
     /// [`GpuError::TooLarge`].
-    pub(super) fn new(context: &Context, pixels: u64, aovs: bool) -> Result<Self, GpuError> {
+    pub(super) fn new(context: &Context, texels_at: u64, pixels: u64, aovs: bool) -> Result<Self, GpuError> {
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
         Ok(Self {
-            buffer: context.buffer("the picture", HEAD + pixels * texel_size(aovs), usage)?,
+            buffer: context.buffer("the picture", texels_at + pixels * texel_size(aovs), usage)?,
             head: context.staging(HEAD)?,
+            texels_at,
             pixels,
             aovs,
         })
     }
 
-    /// Whether a picture of so many pixels goes in.
-    pub(super) fn fits(&self, pixels: u64, aovs: bool) -> bool {
-        (self.pixels, self.aovs) == (pixels, aovs)
+    /// Whether it is laid out so.
+    pub(super) fn fits(&self, texels_at: u64, pixels: u64, aovs: bool) -> bool {
+        (self.texels_at, self.pixels, self.aovs) == (texels_at, pixels, aovs)
     }
 
     /// Forget the picture.
@@ -53,10 +56,15 @@ impl FilmBuffer {
         context.queue.submit([encoder.finish()]);
     }
 
-    /// Bring the head out at the end of a submission, and clear it for the next.
+    /// Tell the next submission what to trace, with all counters at zero.
+    pub(super) fn set_tile(&self, context: &Context, tile: Tile) {
+        let head = FilmHead { tile, ..FilmHead::default() };
+        context.queue.write_buffer(&self.buffer, 0, bytes_of(&head));
+    }
+
+    /// Bring the head out at the end of a submission.
     pub(super) fn take_head(&self, encoder: &mut wgpu::CommandEncoder) {
         encoder.copy_buffer_to_buffer(&self.buffer, 0, &self.head, 0, HEAD);
-        encoder.clear_buffer(&self.buffer, 0, Some(HEAD));
     }
 
     /// The head of the last submission, once that is done.
@@ -68,8 +76,8 @@ impl FilmBuffer {
     pub(super) fn read(&self, context: &Context) -> Result<(Vec<Texel>, Option<Vec<Aov>>), GpuError> {
         let mut texels = Vec::with_capacity(self.pixels as usize);
         let mut aovs = Vec::new();
-        let end = HEAD + self.pixels * texel_size(self.aovs);
-        context.read(&self.buffer, HEAD..end, |bytes| {
+        let end = self.texels_at + self.pixels * texel_size(self.aovs);
+        context.read(&self.buffer, self.texels_at..end, |bytes| {
             if self.aovs {
                 let pixels: &[FullTexel] = cast_slice(bytes);
                 texels.extend(pixels.iter().map(|pixel| pixel.texel));

@@ -1,16 +1,18 @@
 //! One picture in work: tile after tile into the film.
 
 use std::ops::ControlFlow;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use super::GpuError;
-use super::buffers::SceneBuffers;
 use super::context::Context;
 use super::film::FilmBuffer;
 use super::pace::Pace;
 use crate::film::{Frame, Progress, RayCounts};
 use crate::layout::constants::BLOCK;
 use crate::layout::{Aov, FilmHead, Texel, Tile};
+
+/// Rounds of the loop that tells whether the driver ends loops early.
+const CANARY_ROUNDS: u32 = 8;
 
 /// The blocks of a crop, numbered row by row.
 #[derive(Debug, Clone, Copy)]
@@ -50,7 +52,6 @@ impl Blocks {
 /// One picture in work.
 pub(super) struct Job<'a> {
     pub(super) context: &'a Context,
-    pub(super) scene: &'a SceneBuffers,
     pub(super) pipeline: &'a wgpu::ComputePipeline,
     pub(super) film: &'a FilmBuffer,
     pub(super) group: wgpu::BindGroup,
@@ -61,13 +62,8 @@ impl Job<'_> {
     pub(super) fn trace(&self, pace: &mut Pace, progress: &dyn Progress) -> Result<RayCounts, GpuError> {
         let mut rays = RayCounts::default();
         while let Some(tile) = pace.next() {
-            let start = Instant::now();
-            let head = self.submit(tile)?;
-            pace.took(start.elapsed());
-            rays.primary += u64::from(head.primary);
-            rays.reflection += u64::from(head.reflection);
-            rays.refraction += u64::from(head.refraction);
-            rays.shadow += u64::from(head.shadow);
+            let longest = self.trace_tile(tile, &mut rays)?;
+            pace.took(longest);
             let (done, total) = pace.progress();
             if progress.advance(done, total) == ControlFlow::Break(()) {
                 break;
@@ -76,9 +72,32 @@ impl Job<'_> {
         Ok(rays)
     }
 
+    /// Trace one tile in as many submissions as its invocations need; returns what the longest one took.
+    fn trace_tile(&self, tile: Tile, rays: &mut RayCounts) -> Result<Duration, GpuError> {
+        let step_budget = self.context.adapter.step_budget();
+        let (canary_rounds, canary_result) = (CANARY_ROUNDS, Tile::canary_result(CANARY_ROUNDS));
+        let mut longest = Duration::ZERO;
+        for resume in std::iter::once(0).chain(std::iter::repeat(1)) {
+            let start = Instant::now();
+            let head = self.submit(Tile { step_budget, resume, canary_rounds, canary_result, ..tile })?;
+            longest = longest.max(start.elapsed());
+            rays.primary += u64::from(head.primary);
+            rays.reflection += u64::from(head.reflection);
+            rays.refraction += u64::from(head.refraction);
+            rays.shadow += u64::from(head.shadow);
+            if head.cut_short > 0 {
+                return Err(GpuError::LoopLimit { adapter: self.context.adapter.name.clone() });
+            }
+            if head.paused == 0 {
+                break;
+            }
+        }
+        Ok(longest)
+    }
+
     /// Trace one tile, wait for it, and see that all of it ran.
     pub(super) fn submit(&self, tile: Tile) -> Result<FilmHead, GpuError> {
-        self.scene.set_tile(self.context, bytemuck::cast(tile));
+        self.film.set_tile(self.context, tile);
         let mut encoder = self.context.encoder();
         {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());

@@ -14,14 +14,14 @@ const TARGET: Duration = Duration::from_millis(25);
 const GROWTH: f64 = 2.0;
 /// Blocks that a graphics card traces side by side, at the least.
 const CARD_WIDTH: u32 = 32;
-/// Workgroups of one dispatch along x (WebGPU's `maxComputeWorkgroupsPerDimension`).
-const MOST_BLOCKS: u32 = 65_535;
 
 /// Cuts a picture into tiles, one submission after the other.
 #[derive(Debug)]
 pub(super) struct Pace {
     blocks: u32,
     samples: u32,
+    /// Most blocks of one dispatch.
+    most_blocks: u32,
     /// Blocks that the adapter traces side by side: fewer take as long.
     width: u32,
     /// The tile that was submitted last, or one before the first.
@@ -31,19 +31,19 @@ pub(super) struct Pace {
 }
 
 impl Pace {
-    /// A picture of so many blocks and samples per pixel, on that kind of adapter.
-    pub(super) fn new(blocks: u32, samples: u32, kind: AdapterKind) -> Self {
+    /// A picture of so many blocks and samples per pixel, at most so many blocks at once, on that kind of adapter.
+    pub(super) fn new(blocks: u32, samples: u32, most_blocks: u32, kind: AdapterKind) -> Self {
         let width = if kind.is_real() {
             CARD_WIDTH
         } else {
             std::thread::available_parallelism().map_or(1, |threads| threads.get() as u32)
         };
-        Self::with_width(blocks, samples, width)
+        Self::with_width(blocks, samples, most_blocks, width)
     }
 
-    fn with_width(blocks: u32, samples: u32, width: u32) -> Self {
-        let last = Tile { first_block: 0, block_count: 0, first_sample: 0, sample_count: samples };
-        Self { blocks, samples, width, last, units: f64::from(width) }
+    fn with_width(blocks: u32, samples: u32, most_blocks: u32, width: u32) -> Self {
+        let last = Tile { sample_count: samples, ..Tile::default() };
+        Self { blocks, samples, most_blocks, width: width.min(most_blocks), last, units: f64::from(width) }
     }
 
     /// The next tile to submit; none when the picture is done.
@@ -63,6 +63,7 @@ impl Pace {
                 block_count,
                 first_sample: 0,
                 sample_count: self.fitting_samples(block_count, 0),
+                ..Tile::default()
             }
         };
         (self.last.block_count > 0).then_some(self.last)
@@ -77,7 +78,7 @@ impl Pace {
 
     /// Units done, and all of them.
     pub(super) fn progress(&self) -> (u64, u64) {
-        let Tile { first_block, block_count, first_sample, sample_count } = self.last;
+        let Tile { first_block, block_count, first_sample, sample_count, .. } = self.last;
         let done = u64::from(first_block) * u64::from(self.samples)
             + u64::from(block_count) * u64::from(first_sample + sample_count);
         (done, u64::from(self.blocks) * u64::from(self.samples))
@@ -85,13 +86,13 @@ impl Pace {
 
     /// Blocks whose samples are all traced.
     pub(super) fn finished_blocks(&self) -> u32 {
-        let Tile { first_block, block_count, first_sample, sample_count } = self.last;
+        let Tile { first_block, block_count, first_sample, sample_count, .. } = self.last;
         if first_sample + sample_count == self.samples { first_block + block_count } else { first_block }
     }
 
     /// Blocks of the next tile: with all their samples if enough of them fit, else as few as keep the adapter busy.
     fn fitting_blocks(&self) -> u32 {
-        ((self.units / f64::from(self.samples)) as u32).clamp(self.width, MOST_BLOCKS)
+        ((self.units / f64::from(self.samples)) as u32).clamp(self.width, self.most_blocks)
     }
 
     /// Samples of the next tile of so many blocks.
@@ -114,7 +115,7 @@ mod tests {
 
     /// The tiles of a picture.
     fn tiles(blocks: u32, samples: u32, unit: Duration) -> Vec<Tile> {
-        let mut pace = Pace::with_width(blocks, samples, WIDTH);
+        let mut pace = Pace::with_width(blocks, samples, 4096, WIDTH);
         let mut tiles = Vec::new();
         while let Some(tile) = pace.next() {
             tiles.push(tile);

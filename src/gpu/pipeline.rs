@@ -8,17 +8,16 @@ use super::spirv::write_spirv;
 use super::{GpuError, Variant};
 use crate::layout::{Float, Precision};
 
-/// The scene: nodes, triangles, attributes, corners, materials, lights, texels from binding 0 on.
-pub(super) const SCENE: u32 = 7;
+/// The scene's arrays: nodes, triangles, attributes, corners, materials, texels from binding 0 on.
+pub(super) const SCENE: u32 = 6;
+/// Binding of the [`View`](crate::layout::View) with the lights behind it.
+pub(super) const FRAME: u32 = SCENE;
 /// Binding of the buffer that a shader writes: the film, or the records of a probe.
-pub(super) const WRITTEN: u32 = SCENE;
-/// Binding of the [`View`](crate::layout::View).
-pub(super) const VIEW: u32 = WRITTEN + 1;
-/// Binding of the [`Tile`](crate::layout::Tile), or of a probe's range.
-pub(super) const TILE: u32 = VIEW + 1;
-/// All of them are storage buffers. Uniform buffers would do for view and tile, but lavapipe folds those that decide
-/// loops into a copy of the shader at every dispatch, which took half of the time (Mesa 22.3, 13 ms a dispatch).
-pub(super) const STORAGE_BUFFERS: u32 = TILE + 1;
+pub(super) const WRITTEN: u32 = FRAME + 1;
+/// All of them are storage buffers, as many as WebGPU promises. A uniform buffer would do for the view, but lavapipe
+/// folds those that decide loops into a copy of the shader at every dispatch, which took half of the time (Mesa 22.3,
+/// 13 ms a dispatch).
+pub(super) const STORAGE_BUFFERS: u32 = WRITTEN + 1;
 
 /// Group 0 of every pipeline. The bindings have no gaps: see [`write_spirv`].
 pub(super) fn bind_group_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
@@ -40,6 +39,24 @@ pub(super) fn bind_group_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout 
     })
 }
 
+/// A pipeline, and where its shader expects the pixels.
+#[derive(Clone)]
+pub(super) struct Compiled {
+    pub(super) pipeline: wgpu::ComputePipeline,
+    /// Bytes before the texels of the film; 0 for a shader without film.
+    pub(super) texels_at: u64,
+}
+
+/// The offset of the texels in the shader's own record of the film: it depends on the variant's stacks.
+fn texels_at(module: &naga::Module) -> u64 {
+    let film = module.types.iter().find(|(_, kind)| kind.name.as_deref() == Some("Film"));
+    let texels = film.and_then(|(_, kind)| match &kind.inner {
+        naga::TypeInner::Struct { members, .. } => members.last(),
+        _ => None,
+    });
+    texels.map_or(0, |member| u64::from(member.offset))
+}
+
 /// Assemble and compile one entry point.
 ///
 /// # Errors
@@ -50,7 +67,7 @@ pub(super) fn compile(
     sources: &[Source<'_>],
     (root, entry): (&str, &str),
     variant: &Variant,
-) -> Result<wgpu::ComputePipeline, GpuError> {
+) -> Result<Compiled, GpuError> {
     if variant.precision == Precision::F64 && !context.adapter.f64 {
         return Err(GpuError::NoF64 { adapter: context.adapter.name.clone() });
     }
@@ -80,7 +97,7 @@ pub(super) fn compile(
         }
     }
     context.check()?;
-    Ok(pipeline)
+    Ok(Compiled { pipeline, texels_at: texels_at(&shader.module) })
 }
 
 /// Hand the shader to the driver: decorated and as it is if strict, else through wgpu without run-time checks.

@@ -1,16 +1,15 @@
 //! Running one function of the kernel over many inputs: the harness of the lock-step comparison.
 //!
 //! A probe is an entry point `fn probe_NAME(@builtin(global_invocation_id) id: vec3u)` of workgroup size `PROBE_GROUP`. It sees
-//! the scene in bindings 0–6 and 8 and, in place of film and tile,
+//! the scene in bindings 0–6 and, in place of the film,
 //!
 //! ```wgsl
-//! struct Range { first: u32, end: u32, stride: u32, reserved: u32 }
-//! @group(0) @binding(7) var<storage, read_write> records: array<u32>;
-//! @group(0) @binding(9) var<storage, read> range: Range;
+//! struct Records { first: u32, end: u32, stride: u32, reserved: u32, words: array<u32> }
+//! @group(0) @binding(7) var<storage, read_write> records: Records;
 //! ```
 //!
-//! Invocation `id.x` owns record `range.first + id.x`, if that is below `range.end`: the `range.stride` words from
-//! `record · range.stride` on. It reads its inputs there and overwrites them with its results.
+//! Invocation `id.x` owns record `first + id.x`, if that is below `end`: the `stride` words from `record · stride` on. It
+//! reads its inputs there and overwrites them with its results.
 
 use super::assemble::Source;
 use super::buffers::SceneBuffers;
@@ -21,6 +20,8 @@ use crate::layout::{FlatScene, View};
 
 /// Records of one dispatch: a small part of a second on any adapter.
 const DISPATCH: u32 = 1 << 16;
+/// Bytes before the words: which records a dispatch works on.
+const HEAD: u64 = 16;
 
 /// A scene on an adapter, for probes.
 pub struct Prober {
@@ -62,21 +63,22 @@ impl Prober {
         records: &mut [u32],
     ) -> Result<(), GpuError> {
         let context = &self.context;
-        let pipeline = pipeline::compile(context, &self.scene.layout, sources, (root, entry), variant)?;
+        let compiled = pipeline::compile(context, &self.scene.layout, sources, (root, entry), variant)?;
         let size = size_of_val(records) as u64;
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
-        let buffer = context.buffer("the records", size.max(4), usage)?;
-        context.write(&buffer, bytemuck::cast_slice(records))?;
+        let buffer = context.buffer("the records", HEAD + size.max(4), usage)?;
+        context.queue.write_buffer(&buffer, HEAD, bytemuck::cast_slice(records));
         let group = self.scene.bind(context, &buffer);
         let stride = stride.max(1);
         let count = (records.len() / stride) as u32;
         for first in (0..count).step_by(DISPATCH as usize) {
             let end = count.min(first + DISPATCH);
-            self.scene.set_tile(context, [first, end, stride as u32, 0]);
+            let head = [first, end, stride as u32, 0];
+            context.queue.write_buffer(&buffer, 0, bytemuck::cast_slice(&head));
             let mut encoder = context.encoder();
             {
                 let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-                pass.set_pipeline(&pipeline);
+                pass.set_pipeline(&compiled.pipeline);
                 pass.set_bind_group(0, &group, &[]);
                 pass.dispatch_workgroups((end - first).div_ceil(PROBE_GROUP), 1, 1);
             }
@@ -84,7 +86,7 @@ impl Prober {
             context.wait()?;
         }
         let mut at = 0;
-        context.read(&buffer, 0..size, |bytes| {
+        context.read(&buffer, HEAD..HEAD + size, |bytes| {
             let words: &[u32] = bytemuck::cast_slice(bytes);
             records[at..at + words.len()].copy_from_slice(words);
             at += words.len();

@@ -8,6 +8,7 @@ use super::context::Context;
 use super::film::FilmBuffer;
 use super::job::{Blocks, Job};
 use super::pace::Pace;
+use super::pipeline::Compiled;
 use super::{AdapterReport, GpuError, GpuOptions, SOURCES, Variant, pipeline};
 use crate::film::{Frame, Progress, Renderer, TraceTimes};
 use crate::layout::{FlatScene, Float, Settings, Tile, View};
@@ -22,7 +23,7 @@ pub struct GpuRenderer {
     bvh_depth: u32,
     /// What the upload took, until a frame has told it.
     upload: Duration,
-    pipelines: HashMap<Variant, wgpu::ComputePipeline>,
+    pipelines: HashMap<Variant, Compiled>,
     film: Option<FilmBuffer>,
 }
 
@@ -60,16 +61,16 @@ impl GpuRenderer {
     }
 
     /// The film of the last picture if it has the right size, else a new one.
-    fn film(&mut self, pixels: u64, aovs: bool) -> Result<FilmBuffer, GpuError> {
+    fn film(&mut self, texels_at: u64, pixels: u64, aovs: bool) -> Result<FilmBuffer, GpuError> {
         let film = match self.film.take() {
-            Some(film) if film.fits(pixels, aovs) => film,
-            _ => FilmBuffer::new(&self.context, pixels, aovs)?,
+            Some(film) if film.fits(texels_at, pixels, aovs) => film,
+            _ => FilmBuffer::new(&self.context, texels_at, pixels, aovs)?,
         };
         Ok(self.film.insert(film).clone())
     }
 
     /// The variant's pipeline, and whether it is new.
-    fn pipeline(&mut self, variant: &Variant) -> Result<(wgpu::ComputePipeline, bool), GpuError> {
+    fn pipeline(&mut self, variant: &Variant) -> Result<(Compiled, bool), GpuError> {
         if let Some(pipeline) = self.pipelines.get(variant) {
             return Ok((pipeline.clone(), false));
         }
@@ -99,18 +100,19 @@ impl Renderer for GpuRenderer {
         let variant = self.variant(settings);
         // Compile, and make room.
         let (pipeline, is_new) = self.pipeline(&variant)?;
-        let film = self.film(u64::from(width) * u64::from(height), settings.aovs)?;
+        let film = self.film(pipeline.texels_at, u64::from(width) * u64::from(height), settings.aovs)?;
         film.clear(&self.context);
         self.scene.set_view(&self.context, view);
         let group = self.scene.bind(&self.context, &film.buffer);
-        let job = Job { context: &self.context, scene: &self.scene, pipeline: &pipeline, film: &film, group };
+        let job = Job { context: &self.context, pipeline: &pipeline.pipeline, film: &film, group };
         if is_new {
             // Some drivers compile at the first dispatch: have one outside the picture.
             job.submit(Tile { first_block: blocks.count(), block_count: 1, ..Tile::default() })?;
         }
         let compiled = Instant::now();
         // Trace.
-        let mut pace = Pace::new(blocks.count(), view.samples, self.context.adapter.kind);
+        let mut pace =
+            Pace::new(blocks.count(), view.samples, variant.most_blocks(), self.context.adapter.kind);
         let rays = job.trace(&mut pace, progress)?;
         let traced = Instant::now();
         // Bring the picture home.

@@ -1,7 +1,16 @@
 //! One assembly of the shaders: what is chosen before they are compiled.
 
-use crate::layout::constants::{ROUNDOFF_F32, ROUNDOFF_F64, SHARED, Shared};
+use crate::layout::constants::{BLOCK, ROUNDOFF_F32, ROUNDOFF_F64, SHARED, Shared};
 use crate::layout::{Float, Intersector, Precision, Settings};
+
+/// Bytes of a waiting ray in f32, about.
+const BRANCH_BYTES: u32 = 64;
+/// Bytes that the stacks of one dispatch may take.
+const LANE_MEMORY: u32 = 32 << 20;
+/// Blocks of a dispatch, however deep their stacks.
+const LEAST_BLOCKS: u32 = 16;
+/// Blocks of a dispatch, however flat their stacks.
+const MOST_BLOCKS: u32 = 4096;
 
 /// What is chosen before the shaders are compiled; the key of the pipeline cache.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -29,10 +38,21 @@ impl Variant {
             float: settings.float,
             intersector: settings.intersector,
             aovs: settings.aovs,
-            // The deepest traced ray leaves its reflection waiting, if only to be cut.
-            stack_size: settings.depth + 1,
+            // Every level down to the cut one may leave its reflection waiting, and a rest the current ray.
+            stack_size: settings.depth + 2,
             bvh_stack: bvh_depth.saturating_sub(1).max(1),
         }
+    }
+
+    /// Most blocks of one dispatch: their stacks lie in the film buffer, and are to take tens of megabytes only.
+    #[must_use]
+    pub fn most_blocks(&self) -> u32 {
+        let word = match self.precision {
+            Precision::F32 => 1,
+            Precision::F64 => 2,
+        };
+        let lane = (self.stack_size + 2) * BRANCH_BYTES * word;
+        (LANE_MEMORY / (lane * BLOCK * BLOCK)).clamp(LEAST_BLOCKS, MOST_BLOCKS)
     }
 
     /// What `@if(…)` asks for, and the answers.
@@ -72,6 +92,7 @@ impl Variant {
             ("ROUNDOFF", Shared::Real(roundoff)),
             ("STACK_SIZE", Shared::U32(self.stack_size)),
             ("BVH_STACK", Shared::U32(self.bvh_stack)),
+            ("LANES", Shared::U32(self.most_blocks() * BLOCK * BLOCK)),
         ];
         SHARED.iter().map(|&(name, value)| (name, value())).chain(own)
     }

@@ -183,12 +183,12 @@ pub fn occluded<R: Real>(world: &World, ray: &Ray<R>, limit: R) -> bool {
         let a = slabs(ray, Vec3::load(node.a_lo), Vec3::load(node.a_hi));
         let b = slabs(ray, Vec3::load(node.b_lo), Vec3::load(node.b_hi));
         let mut inner = [false; 2];
-        for side in 0..2 {
+        for (side, enters) in inner.iter_mut().enumerate() {
             let is_a = side == 0;
             let (span, count) = if is_a { (a, node.a_count) } else { (b, node.b_count) };
             let first = if is_a { node.a_first } else { node.b_first };
             let hit = span.entry <= span.exit && span.entry <= limit;
-            inner[side] = hit && count == 0;
+            *enters = hit && count == 0;
             if hit {
                 for i in first..first + count {
                     if nearer(world, ray, i, start).index != NONE {

@@ -87,7 +87,8 @@ pub fn trace_pixel<R: Real>(
         let [dx, dy] = sample_offset::<R>(i);
         let x = R::from_i32(pixel[0] as i32) + dx;
         let y = R::from_i32(pixel[1] as i32) + dy;
-        let sample = trace_tree(world, stack, primary_ray(world, x, y));
+        let mut sample = start_tree(world, stack, primary_ray(world, x, y));
+        trace_tree(world, stack, &mut sample);
         film::add(world, texel, &sample, i);
         for (sum, n) in rays.iter_mut().zip(sample.rays_by_kind) {
             *sum += n;
@@ -99,9 +100,21 @@ pub fn trace_pixel<R: Real>(
     rays
 }
 
-/// Trace the tree of one primary ray.
-pub fn trace_tree<R: Real>(world: &World, stack: &mut Vec<Branch<R>>, direction: Vec3<R>) -> Sample<R> {
-    let mut sample = Sample {
+/// Begin the tree of one primary ray.
+pub fn start_tree<R: Real>(world: &World, stack: &mut Vec<Branch<R>>, direction: Vec3<R>) -> Sample<R> {
+    stack.clear();
+    push(
+        stack,
+        Branch {
+            origin: Vec3::load(world.view.eye),
+            media: world.view.start_media,
+            direction,
+            depth: 0,
+            weight: Vec3::one(),
+            kind: RAY_PRIMARY,
+        },
+    );
+    Sample {
         radiance: Vec3::zero(),
         dropped: R::ZERO,
         bound: R::ZERO,
@@ -110,24 +123,23 @@ pub fn trace_tree<R: Real>(world: &World, stack: &mut Vec<Branch<R>>, direction:
         primitive_hash: 0,
         body_hash: 0,
         aov: Aov { body: NONE, medium: NONE, ..Aov::default() },
-    };
-    stack.clear();
-    stack.push(Branch {
-        origin: Vec3::load(world.view.eye),
-        media: world.view.start_media,
-        direction,
-        depth: 0,
-        weight: Vec3::one(),
-        kind: RAY_PRIMARY,
-    });
+    }
+}
+
+/// Leave a branch for later.
+pub fn push<R: Real>(stack: &mut Vec<Branch<R>>, branch: Branch<R>) {
+    stack.push(branch);
+}
+
+/// Trace what is left of the tree.
+pub fn trace_tree<R: Real>(world: &World, stack: &mut Vec<Branch<R>>, sample: &mut Sample<R>) {
     while let Some(branch) = stack.pop() {
         // Refraction goes on, reflection waits: one entry a branching level.
         let mut next = Some(branch);
         while let Some(current) = next {
-            next = follow(world, &mut sample, stack, &current);
+            next = follow(world, sample, stack, &current);
         }
     }
-    sample
 }
 
 /// Trace one branch, if that is worth it, and shade what it meets; returns the child to go on with.
@@ -259,7 +271,7 @@ pub fn shade<R: Real>(
         kind: RAY_REFRACTION,
     };
     if scattered.transmits && scattered.reflects {
-        stack.push(reflection);
+        push(stack, reflection);
     }
     if scattered.transmits {
         Some(refraction)

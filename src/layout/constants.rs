@@ -52,6 +52,10 @@ shared! {
     /// Interfaces without effect that a ray, or interfaces of any kind that a shadow ray, may pass;
     /// one that met this many is stuck and is cut.
     MAX_PASSES: u32 = 4096;
+    /// Passes that a GPU invocation books for a round of a loop: the round, and one that finds the loop's end.
+    LOOP_STEPS: u32 = 2;
+    /// Passes that it books for a node of the BVH: a round of the traversal, and one for each child and their end.
+    NODE_STEPS: u32 = 5;
     /// Rows of four in [`View::media`](super::View::media).
     MEDIA_ROWS: u32 = MAX_MEDIA.div_ceil(4);
     /// Rows of four in [`View::radiance_bound`](super::View::radiance_bound): 0 to `MAX_DEPTH` levels.

@@ -1,7 +1,7 @@
 //! The scene file as it is written: one struct for each table, checked key by key by serde.
 //!
-//! This file is the reference of the format: every key, its range and its default. What depends on several
-//! keys, or on other files, is checked where a table is turned into its part of the scene.
+//! `docs/scenes.md` describes the format to its users: a new key goes there too. What depends on several keys,
+//! or on other files, is checked where a table is turned into its part of the scene.
 
 use std::collections::BTreeMap;
 

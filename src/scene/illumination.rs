@@ -52,8 +52,9 @@ pub(super) fn ignores_dissolve(mtl: &Mtl) -> bool {
 
 /// Ambient, diffuse and specular colour.
 fn local(mtl: &Mtl, model: u8) -> [DVec3; 3] {
-    let [ambient, diffuse, specular] =
-        [mtl.ambient, mtl.diffuse, mtl.specular].map(Option::unwrap_or_default);
+    let [ambient, specular] = [mtl.ambient, mtl.specular].map(Option::unwrap_or_default);
+    let untold = if mtl.texture.is_some() { DVec3::ONE } else { DVec3::ZERO };
+    let diffuse = mtl.diffuse.unwrap_or(untold);
     match model {
         0 => [diffuse, DVec3::ZERO, DVec3::ZERO],
         1 => [ambient, diffuse, DVec3::ZERO],
@@ -77,6 +78,8 @@ fn transmission(mtl: &Mtl, model: u8) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Location;
+    use crate::scene::statement::Reference;
 
     fn with(illumination: u8, dissolve: Option<f64>) -> Material {
         let mtl = Mtl {
@@ -139,6 +142,15 @@ mod tests {
         let material = material(&Mtl::default(), None);
         assert_eq!((material.ior, material.shininess, material.diffuse), (1.0, 32.0, DVec3::ZERO));
         assert_eq!(with(5, None).ior, 1.5);
+    }
+
+    #[test]
+    fn a_texture_without_a_colour_shows_as_it_is() {
+        let location = Location { file: "a.mtl".into(), line: 1, column: 1, length: 1, text: String::new() };
+        let texture = Some(Reference { name: "a.png".into(), location });
+        let mtl = Mtl { texture, ..Mtl::default() };
+        assert_eq!(material(&mtl, None).diffuse, DVec3::ONE);
+        assert_eq!(material(&Mtl { diffuse: Some(DVec3::X), ..mtl }, None).diffuse, DVec3::X);
     }
 
     #[test]

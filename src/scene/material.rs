@@ -8,8 +8,9 @@ use toml::Spanned;
 
 use super::document::{DEFAULT_SHININESS, Document, MaterialTable};
 use super::fault::suggest;
-use super::obj::{Obj, Reference};
+use super::obj::Obj;
 use super::source::Source;
+use super::statement::Reference;
 use super::texture::{Purpose, Textures};
 use super::{Diagnostic, Material, MaterialId, SceneError, illumination, mtl};
 

@@ -14,6 +14,8 @@ mod color;
 mod default_view;
 mod diagnostic;
 mod document;
+#[cfg(test)]
+mod documentation;
 mod error;
 mod fault;
 mod illumination;
@@ -241,7 +243,7 @@ impl Triangle {
 pub struct Model {
     /// A name for messages: the mesh's file stem or the shape's kind, made unique.
     pub name: String,
-    /// Shared between models of the same file.
+    /// Shared between models of the same file or shape.
     pub mesh: Arc<Mesh>,
     /// What each [`Triangle::material`] of the mesh means.
     pub materials: Vec<MaterialId>,

@@ -1,6 +1,7 @@
 //! The models: meshes and shapes with their materials, placed in the world.
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -24,6 +25,8 @@ pub(super) struct Models {
     /// In file order.
     pub(super) list: Vec<Model>,
     meshes: HashMap<PathBuf, LoadedMesh>,
+    /// Meshes of shapes, by the shape as it is written.
+    shapes: HashMap<String, Arc<Mesh>>,
     /// Models that go by each name, before numbers make them differ.
     namesakes: HashMap<String, u32>,
     triangles: u64,
@@ -57,7 +60,7 @@ impl Models {
         let table = table.get_ref();
         let (name, mesh, materials) = match (&table.mesh, &table.shape) {
             (Some(file), None) => self.of_file(file, table, scene)?,
-            (None, Some(shape)) => of_shape(shape, table, scene)?,
+            (None, Some(shape)) => self.of_shape(shape, table, scene)?,
             (Some(_), Some(shape)) => {
                 let place = scene.source.locate(shape.span());
                 return Err(Diagnostic::error("the model has both a mesh and a shape").at(place).into());
@@ -119,6 +122,34 @@ impl Models {
         Ok((stem(&path), mesh, materials))
     }
 
+    fn of_shape(
+        &mut self,
+        shape: &Spanned<Shape>,
+        table: &ModelTable,
+        scene: &Shared<'_>,
+    ) -> Result<(String, Arc<Mesh>, Vec<MaterialId>), SceneError> {
+        let place = || scene.source.locate(shape.span());
+        let Some(name) = &table.material else {
+            return Err(Diagnostic::error("the shape has no material")
+                .at(place())
+                .hint("give the model a `material`")
+                .into());
+        };
+        let material = scene.materials.named(name, scene.source)?;
+        if matches!(shape.get_ref(), Shape::Plane(_)) && scene.materials.list[material.0].is_transmissive() {
+            let fault = Diagnostic::error("a plane bounds no matter, so its material cannot transmit light");
+            return Err(fault.at(scene.source.locate(name.span())).hint("use a thin box").into());
+        }
+        let mesh = match self.shapes.entry(scene.source.text[shape.span()].to_owned()) {
+            Entry::Occupied(known) => known.get().clone(),
+            Entry::Vacant(new) => {
+                let mesh = shape.get_ref().mesh().map_err(|fault| fault.at(place()))?;
+                new.insert(Arc::new(mesh)).clone()
+            }
+        };
+        Ok((shape.get_ref().kind().to_owned(), mesh, vec![material]))
+    }
+
     /// The name; the second model of a name and those after it get a number.
     fn unique(&mut self, name: String) -> String {
         let count = self.namesakes.entry(name.clone()).or_default();
@@ -142,27 +173,6 @@ impl Models {
 /// A file's name without its extension.
 pub(super) fn stem(path: &Path) -> String {
     path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
-}
-
-fn of_shape(
-    shape: &Spanned<Shape>,
-    table: &ModelTable,
-    scene: &mut Shared<'_>,
-) -> Result<(String, Arc<Mesh>, Vec<MaterialId>), SceneError> {
-    let place = || scene.source.locate(shape.span());
-    let Some(name) = &table.material else {
-        return Err(Diagnostic::error("the shape has no material")
-            .at(place())
-            .hint("give the model a `material`")
-            .into());
-    };
-    let material = scene.materials.named(name, scene.source)?;
-    if matches!(shape.get_ref(), Shape::Plane(_)) && scene.materials.list[material.0].is_transmissive() {
-        let fault = Diagnostic::error("a plane bounds no matter, so its material cannot transmit light");
-        return Err(fault.at(scene.source.locate(name.span())).hint("use a thin box").into());
-    }
-    let mesh = shape.get_ref().mesh().map_err(|fault| fault.at(place()))?;
-    Ok((shape.get_ref().kind().to_owned(), Arc::new(mesh), vec![material]))
 }
 
 /// `world_from_object`: scale, then rotation about x, y and z, then translation.

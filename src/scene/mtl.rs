@@ -2,13 +2,14 @@
 //!
 //! Read: `newmtl Ka Kd Ks Tf Ns Ni d Tr illum map_Kd`; everything else is passed over. What a material means
 //! is told in [`super::illumination`].
+//!
+//! A reader of our own: tobj's knows no lines, and panics on a colour of two numbers.
 
 use glam::DVec3;
 
 use super::number::{AboveZero, NotNegative, Range};
-use super::obj::{self, Reference};
 use super::source::Source;
-use super::statement::{Statement, Statements};
+use super::statement::{Reference, Statement, Statements};
 use super::{Location, SceneError};
 
 /// A material as written; `None` where the file is silent.
@@ -46,7 +47,7 @@ pub(super) fn parse(source: &Source) -> Result<Vec<Mtl>, SceneError> {
     let mut materials: Vec<Mtl> = Vec::new();
     for statement in Statements::new(source) {
         if statement.keyword == "newmtl" {
-            let Reference { name, location } = obj::reference(&statement)?;
+            let Reference { name, location } = statement.reference()?;
             materials.push(Mtl { name, location: Some(location), ..Mtl::default() });
         } else if let Some(material) = materials.last_mut() {
             read(material, &statement)?;
@@ -128,7 +129,7 @@ fn texture(statement: &Statement<'_>) -> Result<Reference, SceneError> {
         let fault = statement.fault(statement.rest, "options of `map_Kd` are not supported");
         return Err(fault.hint("write the file's name alone; texture coordinates repeat").into());
     }
-    obj::reference(statement)
+    statement.reference()
 }
 
 #[cfg(test)]

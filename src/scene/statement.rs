@@ -31,6 +31,15 @@ impl<'a> Statement<'a> {
         Diagnostic::error(message).at(self.locate(part))
     }
 
+    /// Read the name after the keyword; it may hold spaces.
+    pub(super) fn reference(&self) -> Result<Reference, SceneError> {
+        if self.rest.is_empty() {
+            let message = format!("`{}` needs a name", self.keyword);
+            return Err(self.fault(self.keyword, message).into());
+        }
+        Ok(Reference { name: self.rest.to_owned(), location: self.locate(self.rest) })
+    }
+
     /// Read one word as a finite number.
     pub(super) fn number(&self, word: &str) -> Result<f64, SceneError> {
         let value: f64 = word.parse().map_err(|_| self.fault(word, format!("`{word}` is not a number")))?;
@@ -54,6 +63,15 @@ impl<'a> Statement<'a> {
         }
         Ok(numbers)
     }
+}
+
+/// A name that stands for something in another file.
+#[derive(Debug, Clone)]
+pub(super) struct Reference {
+    /// The name.
+    pub(super) name: String,
+    /// Where it is written.
+    pub(super) location: Location,
 }
 
 /// Iterates over the statements of a source.

@@ -46,16 +46,14 @@ macro_rules! record {
 
 /// Every record of a buffer, as Rust lays it out.
 fn rust_records() -> Vec<Record> {
-    let mut film = record!(
-        "Film",
-        FilmHead { done, primary, reflection, refraction, shadow, reserved0, reserved1, reserved2 }
-    );
-    // The pixels follow the head.
-    film.fields.push(Field {
-        name: "texels".into(),
-        offset: size_of::<FilmHead>(),
-        kind: "[FilmTexel]".into(),
-    });
+    let frame = Record {
+        name: "Frame",
+        size: size_of::<View>(),
+        fields: vec![
+            Field { name: "view".into(), offset: 0, kind: "View".into() },
+            Field { name: "lights".into(), offset: size_of::<View>(), kind: "[Light]".into() },
+        ],
+    };
     let film_texel = Record {
         name: "FilmTexel",
         size: size_of::<Texel>() + size_of::<Aov>(),
@@ -119,9 +117,25 @@ fn rust_records() -> Vec<Record> {
                 radiance_bound,
             }
         ),
-        record!("Tile", Tile { first_block, block_count, first_sample, sample_count }),
-        film,
+        record!(
+            "Tile",
+            Tile {
+                first_block,
+                block_count,
+                first_sample,
+                sample_count,
+                step_budget,
+                resume,
+                canary_rounds,
+                canary_result,
+            }
+        ),
+        record!(
+            "FilmHead",
+            FilmHead { tile, done, paused, cut_short, primary, reflection, refraction, shadow, reserved }
+        ),
         film_texel,
+        frame,
     ]
 }
 
@@ -147,8 +161,8 @@ fn record_differences(record: &Record, module: &Module) -> Vec<String> {
         .filter(|&index| rust.get(index) != fields.get(index))
         .map(|index| format!("{name}: {:?} in Rust, {:?} in the shaders", rust.get(index), fields.get(index)))
         .collect();
-    // The film ends with pixels without end.
-    if *span as usize != record.size && name != "Film" {
+    // A frame ends with lights without end.
+    if *span as usize != record.size && name != "Frame" {
         found.push(format!("{name}: {} bytes in Rust, {span} in the shaders", record.size));
     }
     found

@@ -1,5 +1,6 @@
 use std::fs;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use tempfile::TempDir;
@@ -181,6 +182,16 @@ fn a_camera_with_a_basis_turns_about_the_models() {
     let text =
         MINIMAL.replace("target = [0, 0, 0]", "right = [1, 0, 0]\nup = [0, 1, 0]\nforward = [0, 0, -1]");
     assert!((load(&[("a.toml", &text)]).camera.target_distance - 5.0).abs() < 1e-15);
+}
+
+#[test]
+fn shapes_written_alike_share_their_mesh() {
+    let model =
+        |radius| format!("[[model]]\nshape = {{ sphere = {{ radius = {radius} }} }}\nmaterial = 'a'\n");
+    let text = format!("[material.a]\n{}{}{}", model(1), model(2), model(1));
+    let models = load(&[("a.toml", &text)]).models;
+    assert!(Arc::ptr_eq(&models[0].mesh, &models[2].mesh));
+    assert!(models[0].mesh != models[1].mesh);
 }
 
 #[test]

@@ -1,5 +1,6 @@
 use std::path::Path;
 
+use super::scan::{MAX_CORNERS, MAX_LIBRARIES};
 use super::*;
 
 fn source(text: &str) -> Source {
@@ -37,12 +38,12 @@ fn negative_indices_count_backwards() {
 fn normals_and_texture_coordinates_have_their_own_indices() {
     let obj = read("vt 0 0\nvt 0.5\nvn 0 0 2\nf 1/2/1 2/1/1 3/1/1\nf 1//1 2//1 3//1\nf 1/1 2/1 3/1\n");
     assert_eq!(obj.mesh.normals, [DVec3::Z]);
-    assert_eq!(obj.mesh.uvs[1], DVec2::new(0.5, 0.0));
     let none = [Triangle::NONE; 3];
     let [a, b, c] = obj.mesh.triangles[..] else { panic!("three faces") };
-    assert_eq!((a.uvs, a.normals), ([1, 0, 0], [0; 3]));
+    let uvs = |triangle: Triangle| triangle.uvs.map(|index| obj.mesh.uvs[index as usize].to_array());
+    assert_eq!((uvs(a), a.normals), ([[0.5, 0.0], [0.0; 2], [0.0; 2]], [0; 3]));
     assert_eq!((b.uvs, b.normals), (none, [0; 3]));
-    assert_eq!((c.uvs, c.normals), ([0; 3], none));
+    assert_eq!((uvs(c), c.normals), ([[0.0; 2]; 3], none));
 }
 
 #[test]
@@ -70,7 +71,7 @@ fn libraries_are_listed_with_their_places() {
 #[test]
 fn lines_points_colours_and_free_forms_are_passed_over() {
     let obj = read("v 0 0 1 0.5 0.5 0.5\nl 1 2\np 1\ncstype bezier\ns off\nf 1 2 3");
-    assert_eq!((obj.mesh.positions.len(), obj.mesh.triangles.len()), (5, 1));
+    assert_eq!((obj.mesh.positions.len(), obj.mesh.triangles.len()), (3, 1));
 }
 
 #[test]
@@ -124,20 +125,39 @@ fn a_face_of_too_many_corners_is_refused() {
 }
 
 #[test]
-fn an_independent_reader_finds_the_same_triangles() {
-    let text = format!(
-        "{SQUARE}v 2 0.5 0\nvn 0 0 1\nvt 0 0\nvt 1 1\ng a\nf 1/1/1 2/2/1 3/2/1\nf 1/1/1 3/2/1 4/1/1\nf -4//1 -1//1 -3//1\n"
-    );
-    let options = tobj::LoadOptions { triangulate: true, ..Default::default() };
-    let (models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, |_| unreachable!()).unwrap();
-    let theirs = models.iter().flat_map(|model| {
-        let point = |&index: &u32| {
-            let at = 3 * index as usize;
-            DVec3::from_slice(&[0, 1, 2].map(|axis| f64::from(model.mesh.positions[at + axis])))
-        };
-        model.mesh.indices.iter().map(point)
-    });
-    let obj = parse(&source(&text)).unwrap();
-    let ours = obj.mesh.triangles.iter().flat_map(|t| t.positions).map(|p| obj.mesh.positions[p as usize]);
-    assert!(theirs.eq(ours));
+fn groups_and_materials_leave_a_cube_closed() {
+    let obj = parse(&source(
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\ng ends\nusemtl a\nf 4 3 2 1\n\
+         f 5 6 7 8\no sides\nusemtl b\nf 1 2 6 5\nf 2 3 7 6\ng more\nusemtl a\nf 3 4 8 7\nf 4 1 5 8\n",
+    ))
+    .unwrap();
+    assert_eq!((obj.mesh.positions.len(), obj.mesh.triangles.len(), obj.slots.len()), (8, 12, 2));
+    let mut edges = std::collections::HashMap::new();
+    for [a, b, c] in obj.mesh.triangles.iter().map(|triangle| triangle.positions) {
+        for [from, to] in [[a, b], [b, c], [c, a]] {
+            *edges.entry([from.min(to), from.max(to)]).or_insert(0) += if from < to { 1 } else { 16 };
+        }
+    }
+    assert_eq!(edges.len(), 18);
+    assert!(edges.values().all(|&uses| uses == 1 + 16), "every edge is run through once in each direction");
+}
+
+#[test]
+fn coordinates_keep_the_precision_of_f64() {
+    let obj = parse(&source("v 0.1 0 0\nv 1 0 0\nv 0 1 0\nvt 0.3 0\nf 1/1 2/1 3/1")).unwrap();
+    assert_eq!((obj.mesh.positions[0].x, obj.mesh.uvs[0].x), (0.1, 0.3));
+}
+
+#[test]
+fn faces_of_many_corners_are_cut_inside() {
+    let obj = parse(&source("v 0 0 0\nv 4 0 0\nv 4 4 0\nv 2 1 0\nv 0 4 0\nf 1 2 3 4 5\nf 1 2 3\nf 1 2 3 4"));
+    let mesh = obj.unwrap().mesh;
+    assert_eq!(mesh.triangles.len(), 3 + 1 + 2);
+    let area = |triangle: &Triangle| {
+        let [a, b, c] = triangle.positions.map(|index| mesh.positions[index as usize]);
+        (b - a).cross(c - a).z / 2.0
+    };
+    let areas: Vec<_> = mesh.triangles.iter().map(area).collect();
+    assert!(areas.iter().all(|&area| area > 0.0), "{areas:?}");
+    assert_eq!((areas[..3].iter().sum::<f64>(), areas[3], areas[4] + areas[5]), (10.0, 8.0, 6.0));
 }

@@ -9,14 +9,13 @@ use snellius::kernel::math::length3;
 use snellius::kernel::media::{attenuation, cross_face, current_medium};
 use snellius::kernel::surface::{Surface, resolve, spawn_before, spawn_behind};
 use snellius::kernel::texture::texture_color;
-use snellius::kernel::whitted::trace_tree;
 use snellius::kernel::{Vec3, World};
 use snellius::layout::constants::NONE;
 
 use super::Probe;
 use super::inputs::Input::{Direction, Number, Point, Positive, Word};
 use super::record::Record;
-use super::soup::{MATERIALS, MEDIA_MASKS, SIZE, TRIANGLES};
+use super::soup::{MATERIALS, MEDIA_MASKS, TRIANGLES};
 
 pub(super) const PROBES: &[Probe] = &[
     Probe {
@@ -200,21 +199,6 @@ pub(super) const PROBES: &[Probe] = &[
         run: |world, io| {
             let direction = io.take3();
             io.put3(background(world, direction));
-        },
-    },
-    Probe {
-        name: "trace_tree",
-        inputs: &[Word(SIZE), Word(SIZE)],
-        outputs: 8,
-        run: |world, io| {
-            let (x, y) = (io.take_word() as f32, io.take_word() as f32);
-            let sample = trace_tree(world, &mut Vec::new(), primary_ray(world, x, y));
-            io.put3(sample.radiance);
-            io.put(sample.dropped);
-            io.put(sample.bound);
-            io.put_word(sample.rays);
-            io.put_word(sample.primitive_hash);
-            io.put_word(sample.body_hash);
         },
     },
 ];

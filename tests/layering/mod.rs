@@ -1,5 +1,7 @@
 //! Who imports whom: `use crate::` lines against the table of the architecture.
 
+#![allow(clippy::unwrap_used)]
+
 use std::path::{Path, PathBuf};
 
 /// Each module with the modules it may import besides itself. `cli` may import all.
