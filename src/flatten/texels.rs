@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::number::narrow;
 use crate::layout::FlatTexture;
-use crate::scene::{Pixels, Scene, Texture, TextureId};
+use crate::scene::{Pixels, Scene, Texture, TextureId, linear_from_srgb8};
 
 /// Grows the words of [`FlatScene::texels`](crate::layout::FlatScene::texels).
 pub(super) struct Texels {
@@ -16,7 +16,7 @@ pub(super) struct Texels {
 impl Texels {
     /// The table alone.
     pub(super) fn new() -> Self {
-        let table = std::array::from_fn(|code| narrow(linear(code as f64 / 255.0)));
+        let table = std::array::from_fn(|code| narrow(linear_from_srgb8(code as u8)));
         Self { words: table.map(f32::to_bits).to_vec(), table, placed: HashMap::new() }
     }
 
@@ -64,11 +64,6 @@ impl Texels {
     fn next(&self, texture: &Texture) -> FlatTexture {
         FlatTexture { first: self.words.len() as u32, width: texture.width, height: texture.height }
     }
-}
-
-/// The sRGB transfer function, from a code in [0, 1] to linear light (IEC 61966-2-1).
-pub(super) fn linear(code: f64) -> f64 {
-    if code <= 0.04045 { code / 12.92 } else { ((code + 0.055) / 1.055).powf(2.4) }
 }
 
 /// The code whose linear value is nearest.

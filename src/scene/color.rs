@@ -16,7 +16,8 @@ impl Color {
 }
 
 /// Linear value of an 8-bit sRGB code (IEC 61966-2-1, section 5.2).
-pub(super) fn linear_from_srgb8(code: u8) -> f64 {
+#[must_use]
+pub fn linear_from_srgb8(code: u8) -> f64 {
     let encoded = f64::from(code) / 255.0;
     if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }

@@ -35,6 +35,7 @@ mod table;
 mod texture;
 mod triple;
 
+pub use color::linear_from_srgb8;
 pub use diagnostic::{Diagnostic, Location, Severity};
 pub use error::SceneError;
 
