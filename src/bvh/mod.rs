@@ -1,6 +1,6 @@
 //! The bounding volume hierarchy: build, encode, check, statistics.
 //!
-//! A builder decides only *which* triangles go together, as a [`tree::Tree`]; [`encode`] writes the nodes
+//! A builder decides only *which* triangles go together, as a `tree::Tree`; `encode` writes the nodes
 //! and takes their boxes from the triangles themselves, so that every box is the exact least and greatest
 //! coordinate of what lies below it, whichever builder was at work. The traversal widens the boxes; the
 //! data hold no padding.
