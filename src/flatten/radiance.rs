@@ -14,7 +14,7 @@ pub(super) fn bounds(scene: &FlatScene) -> Vec<f32> {
     let levels = std::iter::successors(Some(brightest_background(scene)), |&radiance| {
         Some((local + passed * radiance).min(f64::from(f32::MAX)))
     });
-    levels.take(MAX_DEPTH as usize + 2).map(narrow_up).collect()
+    levels.take(MAX_DEPTH as usize + 1).map(narrow_up).collect()
 }
 
 /// B: the brightest channel of any direction.

@@ -4,14 +4,42 @@
 //! of Newell's normal. Every corner stays a corner, collinear ones too, so that n corners always give n − 2
 //! triangles whose outer edges are the face's edges: no T-junction arises between neighbouring faces.
 
+use std::cmp::Ordering;
+
 use glam::{DVec2, DVec3};
 
 /// Cut a polygon of n ≥ 3 corners into n − 2 triangles of the same orientation, which index the corners.
 ///
-/// A convex polygon becomes the fan of its first corner. Where the polygon crosses itself or has no area
-/// there is no right answer; the result still has n − 2 triangles and the same outer edges.
-/// Time is O(n²) at worst.
+/// The cut does not depend on the corner that the polygon is written from, nor on the way round: faces of two
+/// bodies that coincide are cut alike. A convex polygon becomes the fan of its least corner by x, then y, then z.
+/// Where the polygon crosses itself or has no area there is no right answer; the result still has n − 2
+/// triangles and the same outer edges. Time is O(n²) at worst.
 pub(super) fn triangulate(corners: &[DVec3]) -> Vec<[usize; 3]> {
+    if corners.len() < 3 {
+        return Vec::new();
+    }
+    let (order, is_turned) = canonical_order(corners);
+    let points: Vec<DVec3> = order.iter().map(|&corner| corners[corner]).collect();
+    let restore = |triangle: [usize; 3]| {
+        let [a, b, c] = triangle.map(|corner| order[corner]);
+        if is_turned { [a, c, b] } else { [a, b, c] }
+    };
+    cut(&points).into_iter().map(restore).collect()
+}
+
+/// The corners from the least one on, towards its lesser neighbour, and whether that is against their order.
+fn canonical_order(corners: &[DVec3]) -> (Vec<usize>, bool) {
+    let count = corners.len();
+    let key = |corner: usize| corners[corner % count].to_array();
+    let less = |a: usize, b: usize| key(a).partial_cmp(&key(b)) == Some(Ordering::Less);
+    let start = (0..count).fold(0, |least, corner| if less(corner, least) { corner } else { least });
+    let is_turned = less(start + count - 1, start + 1);
+    let order = (0..count).map(|step| if is_turned { start + count - step } else { start + step } % count);
+    (order.collect(), is_turned)
+}
+
+/// Clip ears, from the second corner on.
+fn cut(corners: &[DVec3]) -> Vec<[usize; 3]> {
     let mut triangles = Vec::with_capacity(corners.len().saturating_sub(2));
     let mut ring = Ring::new(corners);
     let mut corner = 1;
@@ -161,12 +189,35 @@ mod tests {
     }
 
     #[test]
-    fn a_convex_face_becomes_the_fan_of_its_first_corner() {
+    fn the_cut_depends_neither_on_the_first_corner_nor_on_the_way_round() {
+        let arrow = flat(&[[0., 0.], [4., 1.], [0., 2.], [1., 1.], [-1., 1.5]]);
+        let places = |corners: &[DVec3]| {
+            let sorted = |triangle: [usize; 3]| {
+                let mut points = triangle.map(|corner| corners[corner].to_array());
+                points.sort_by(|a, b| a.partial_cmp(b).unwrap());
+                points
+            };
+            let mut triangles: Vec<_> = triangulate(corners).into_iter().map(sorted).collect();
+            triangles.sort_by(|a, b| a.partial_cmp(b).unwrap());
+            triangles
+        };
+        let expected = places(&arrow);
+        for turn in 0..arrow.len() {
+            let mut corners = arrow.clone();
+            corners.rotate_left(turn);
+            assert_eq!(places(&corners), expected);
+            corners.reverse();
+            assert_eq!(places(&corners), expected);
+        }
+    }
+
+    #[test]
+    fn a_convex_face_becomes_the_fan_of_its_least_corner() {
         let hexagon: Vec<_> = (0..6)
             .map(|i| f64::from(i).to_radians() * 60.0)
             .map(|a| DVec3::new(a.cos(), 0.0, a.sin()))
             .collect();
-        assert_eq!(check(&hexagon), [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]]);
+        assert_eq!(check(&hexagon), [[3, 4, 5], [3, 5, 0], [3, 0, 1], [3, 1, 2]]);
     }
 
     #[test]

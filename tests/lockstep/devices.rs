@@ -15,7 +15,7 @@ const SWIFTSHADER: [&str; 5] = [
 ];
 
 /// Run a test on lavapipe and on SwiftShader.
-pub(super) fn on_each(test: impl Fn(&GpuOptions)) {
+pub(crate) fn on_each(test: impl Fn(&GpuOptions)) {
     for part in ["llvmpipe", "swiftshader"] {
         if let Some(options) = find(part) {
             test(&options);

@@ -7,7 +7,7 @@
 
 mod constants;
 mod decorations;
-mod devices;
+pub(crate) mod devices;
 mod layout;
 mod pictures;
 mod planted;
