@@ -54,15 +54,21 @@ fn run(arguments: Arguments) -> Result<bool> {
     let second = Target::find(arguments.second, arguments.second_size)?;
     let scenes = if arguments.scenes.is_empty() { all_scenes()? } else { arguments.scenes };
     println!("{}", table::head(&first, &second));
-    let mut failures = Vec::new();
+    let mut rows = Vec::new();
     for path in scenes {
         let row = Row::measure(&path, &first, &second)?;
         println!("{}", table::row(&row));
-        failures.extend(row.failures().map(|figure| format!("{}: {figure}", row.scene)));
+        rows.push(row);
     }
-    println!("\n{}", table::caption(&first, &second));
-    failures.iter().for_each(|failure| eprintln!("does not hold: {failure}"));
-    Ok(failures.is_empty())
+    println!("\n{}", table::caption(&first, &second, &rows));
+    let mut holds = true;
+    for row in &rows {
+        for figure in row.failures() {
+            eprintln!("{}: {figure} does not hold", row.scene);
+            holds = false;
+        }
+    }
+    Ok(holds)
 }
 
 fn all_scenes() -> Result<Vec<PathBuf>> {

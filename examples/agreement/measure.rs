@@ -15,7 +15,8 @@ use super::Result;
 pub(super) const LEAST_EQUAL_FAST: f64 = 99.9;
 /// Least percentage of pixels whose rays meet the same bodies in f32 and f64.
 pub(super) const LEAST_EQUAL_F64: f64 = 97.0;
-/// Most that f32 may differ from f64 in 99 of 100 such pixels, of the brightest radiance or of 1.
+/// Most that f32 may differ from f64 in 99 of 100 such pixels, as part of the greatest radiance that the scene can
+/// give (`max_radiance` of `render --json`) or of 1.
 const F64_TOLERANCE: f32 = 1e-4;
 
 /// An adapter, and the size at which it is compared with the CPU.
@@ -53,6 +54,8 @@ pub(super) struct Row {
     pub(super) p99: f32,
     /// What it may be.
     pub(super) allowed: f32,
+    /// The largest channel of the picture in f64.
+    pub(super) brightest: f32,
 }
 
 /// A strict picture of a GPU against the CPU's.
@@ -88,7 +91,8 @@ impl Row {
             ),
             bodies: percent_equal(&single, &double, |texel| texel.body_hash),
             p99: p99_where_bodies_agree(&single, &double),
-            allowed: F64_TOLERANCE * brightest(&double).max(1.0),
+            allowed: F64_TOLERANCE * bench.flat.radiance_bound.last().copied().unwrap_or(0.0).max(1.0),
+            brightest: brightest(&double),
         })
     }
 
@@ -170,7 +174,6 @@ fn p99_where_bodies_agree(a: &Frame, b: &Frame) -> f32 {
     differences.get(differences.len() * 99 / 100).copied().unwrap_or(0.0)
 }
 
-/// The largest channel of the picture.
 fn brightest(frame: &Frame) -> f32 {
     frame.texels.iter().flat_map(|texel| texel.radiance).fold(0.0, f32::max)
 }

@@ -37,9 +37,15 @@ pub(super) fn row(row: &Row) -> String {
 }
 
 /// What was compared, at which size and with which drivers.
-pub(super) fn caption(first: &Target, second: &Target) -> String {
+pub(super) fn caption(first: &Target, second: &Target, rows: &[Row]) -> String {
     let [width, height] = first.size;
-    format!("One sample a pixel. {}; {}; f64 at {width}×{height}.", described(first), described(second))
+    let relative = rows.iter().map(|row| row.p99 / row.brightest.max(1.0)).fold(0.0, f32::max);
+    format!(
+        "One sample a pixel; {}; {}; f64 at {width}×{height}. Allowed is 1e-4 of the scene's `max_radiance`, at least \
+         1e-4; of the brightest value in its picture, at least 1, a scene's p99 is at most {relative:.1e}.",
+        described(first),
+        described(second)
+    )
 }
 
 fn described(target: &Target) -> String {

@@ -4,6 +4,7 @@ use std::fs;
 
 use super::CliError;
 use super::console::Console;
+use super::values::whole_in;
 use crate::cpu::CpuRenderer;
 use crate::film::{Frame, Progress, Renderer};
 use crate::gpu::{AdapterReport, GpuOptions, GpuRenderer, adapters};
@@ -19,9 +20,9 @@ pub(super) struct DeviceArgs {
     /// Part of the name of a Vulkan adapter, as `snellius devices` lists them; implies --backend gpu
     #[arg(long, value_name = "NAME")]
     adapter: Option<String>,
-    /// Threads of the CPU [default: one for each core, else RAYON_NUM_THREADS]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
+    /// Threads of the CPU [default: RAYON_NUM_THREADS, else one for each core]
+    #[arg(long, value_name = "N", value_parser = |text: &str| whole_in(text, 1, 4096))]
+    threads: Option<u32>,
 }
 
 /// The device that the flags ask for.
@@ -37,7 +38,7 @@ pub(super) enum Choice {
 
 impl DeviceArgs {
     pub(super) fn choice(self) -> Result<Choice, CliError> {
-        let threads = self.threads.map_or(0, usize::from);
+        let threads = self.threads.map_or(0, |threads| threads as usize);
         match (self.backend, self.adapter) {
             (Some(Backend::Cpu), Some(adapter)) => {
                 Err(CliError::usage(format!("--backend cpu has no adapter {adapter:?}"))

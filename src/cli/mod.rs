@@ -14,8 +14,8 @@ mod render;
 mod values;
 mod view;
 
+use std::ffi::OsString;
 use std::io;
-use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
@@ -29,8 +29,11 @@ use error::{CliError, Outcome};
 #[command(
     name = "snellius",
     version,
-    args_conflicts_with_subcommands = true,
+    override_usage = "snellius <COMMAND> [OPTIONS]\n       snellius <SCENE>",
     after_help = "\
+A scene is a .toml file (docs/scenes.md describes it) or a bare .obj mesh. There is no viewer yet:
+`snellius SCENE` says how to render it.
+
 Examples:
   snellius render scenes/ice.toml -o ice.png
   snellius check scenes/ice.toml
@@ -43,8 +46,6 @@ Environment: WGPU_BACKEND, WGPU_ADAPTER_NAME, RAYON_NUM_THREADS, NO_COLOR, RUST_
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
-    /// A scene to open: .toml or .obj
-    scene: Option<PathBuf>,
     /// Say nothing on standard error but errors
     #[arg(short, long, global = true, conflicts_with = "verbose", help_heading = "Messages")]
     quiet: bool,
@@ -59,6 +60,9 @@ enum Command {
     Check(check::CheckArgs),
     Devices(devices::DevicesArgs),
     Diff(diff::DiffArgs),
+    /// A scene, or a mistake.
+    #[command(external_subcommand)]
+    Scene(Vec<OsString>),
 }
 
 /// Parse the process's arguments and run the command; returns the exit code.
@@ -79,13 +83,13 @@ pub fn main() -> ExitCode {
 }
 
 fn run(cli: Cli, console: Console) -> Result<Outcome, CliError> {
-    match (cli.command, cli.scene) {
-        (Some(Command::Render(args)), _) => render::run(*args, console),
-        (Some(Command::Check(args)), _) => check::run(&args),
-        (Some(Command::Devices(args)), _) => devices::run(&args, console),
-        (Some(Command::Diff(args)), _) => diff::run(args, console),
-        (None, Some(scene)) => Err(view::no_viewer(&scene)),
-        (None, None) => {
+    match cli.command {
+        Some(Command::Render(args)) => render::run(*args, console),
+        Some(Command::Check(args)) => check::run(&args),
+        Some(Command::Devices(args)) => devices::run(&args, console),
+        Some(Command::Diff(args)) => diff::run(args, console),
+        Some(Command::Scene(words)) => Err(view::no_viewer(&words)),
+        None => {
             console::print(&Cli::command().render_help().to_string())?;
             Ok(Outcome::Done)
         }

@@ -169,12 +169,20 @@ impl FromStr for Threshold {
         let (name, limit) = text.split_once('=').ok_or("expected METRIC=VALUE, as in rmse=0.01")?;
         let metric =
             Metric::ALL.into_iter().find(|metric| metric.name() == name.replace('-', "_")).ok_or_else(
-                || format!("no such metric; there are {}", Metric::ALL.map(Metric::name).join(", ")),
+                || format!("a limit is set on one of {}", Metric::ALL.map(Metric::name).join(", ")),
             )?;
         match limit.parse() {
             Ok(limit) if limit >= 0.0 => Ok(Self { metric, limit }),
             _ => Err("the value is a number ≥ 0".to_owned()),
         }
+    }
+}
+
+/// A whole number in this range.
+pub(super) fn whole_in(text: &str, least: u32, most: u32) -> Result<u32, String> {
+    match text.parse() {
+        Ok(number) if (least..=most).contains(&number) => Ok(number),
+        _ => Err(format!("expected a whole number from {least} to {most}")),
     }
 }
 
@@ -234,6 +242,14 @@ mod tests {
         assert_eq!(number_in("1e-4", 0.0, 1.0), Ok(1e-4));
         for wrong in ["NaN", "inf", "-0.1", "1.1", "x"] {
             assert!(number_in(wrong, 0.0, 1.0).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn whole_numbers_outside_their_range_are_refused() {
+        assert_eq!(whole_in("64", 0, 64), Ok(64));
+        for wrong in ["65", "-1", "1.5", "x", ""] {
+            assert!(whole_in(wrong, 0, 64).is_err(), "{wrong}");
         }
     }
 

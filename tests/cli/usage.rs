@@ -30,12 +30,12 @@ fn a_bare_scene_says_how_to_render() {
 #[test]
 fn mistakes_are_told_on_standard_error_with_code_2() {
     for (line, message) in [
-        ("rendr", "neither a scene file nor a command"),
+        ("rendr a.toml -o a.png", "did you mean `snellius render`?"),
         ("render a.toml", "--output <PATH>"),
         ("render a.toml -o a.jpg", ".png, .exr or .hdr"),
         ("render a.toml -o nowhere/a.png", "no such folder"),
         ("render a.toml -o a.png --size 0x10", "width and height are from 1 to 16384"),
-        ("render a.toml -o a.png --depth 65", "65"),
+        ("render a.toml -o a.png --depth 65", "expected a whole number from 0 to 64"),
         ("render a.toml -o a.png --aov color=a.exr", "there are depth, normal, body"),
         ("render a.toml -o a.png --backend cpu --adapter x", "--backend cpu has no adapter"),
         ("render a.toml -o a.png -q -v", "cannot be used with"),

@@ -13,7 +13,7 @@ use report::Report;
 /// Check a scene and list what it holds and calls for
 ///
 /// Reads every file of the scene as a render would, and tells bodies and media, triangles, lights,
-/// textures, the sizes of the buffers that renderers read, and which effects are simulated and why.
+/// textures, the sizes of the buffers that renderers read, and which effects it calls for and why.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

@@ -159,7 +159,7 @@ fn buffers(flat: &FlatScene, [width, height]: [u32; 2]) -> Vec<Buffer> {
     sized.into_iter().map(|(name, bytes)| Buffer { name, bytes }).collect()
 }
 
-/// What a render without flags would simulate.
+/// What a render without flags calls for.
 fn effects(scene: &Scene, flat: &FlatScene) -> Vec<Effect> {
     let settings =
         Settings { depth: scene.render.depth, samples: scene.render.samples, ..Settings::default() };

@@ -46,7 +46,7 @@ impl Display for Medium {
 impl Display for Light {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Self { position: [x, y, z], intensity: [r, g, b], falloff } = self;
-        write!(f, "at {x} {y} {z}, intensity {r:.4} {g:.4} {b:.4}, falloff {falloff}")
+        write!(f, "at {x:.4} {y:.4} {z:.4}, intensity {r:.4} {g:.4} {b:.4}, falloff {falloff}")
     }
 }
 

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::super::device::DeviceArgs;
-use super::super::values::{AovFile, Crop, ProgressStyle, Size, number_in};
+use super::super::values::{AovFile, Crop, ProgressStyle, Size, number_in, whole_in};
 use crate::film::{BitDepth, Tone};
 use crate::layout::constants::MAX_DEPTH;
 use crate::layout::{Float, Intersector, Precision};
@@ -33,13 +33,13 @@ pub(in crate::cli) struct RenderArgs {
     #[arg(long, value_name = "WxH")]
     pub(super) size: Option<Size>,
     /// Deepest ray that is traced, 0 to 64; the ray from the eye has depth 0 [default: the scene's, else 16]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=i64::from(MAX_DEPTH)))]
+    #[arg(long, value_name = "N", value_parser = |text: &str| whole_in(text, 0, MAX_DEPTH))]
     pub(super) depth: Option<u32>,
     /// Least weight of a ray that is traced, 0 to 1 [default: the scene's, else 0.0001]
     #[arg(long, value_name = "W", value_parser = |text: &str| number_in(text, 0.0, 1.0))]
     pub(super) cutoff: Option<f64>,
     /// Samples per pixel, 1 to 65536 [default: the scene's, else 4]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536))]
+    #[arg(long, value_name = "N", value_parser = |text: &str| whole_in(text, 1, 65536))]
     pub(super) samples: Option<u32>,
     /// Trace only this part of the picture: left, top, width and height in pixels
     #[arg(long, value_name = "X,Y,W,H")]
