@@ -54,10 +54,6 @@ words! {
         Self::Eight => "8", "256 levels";
         Self::Sixteen => "16", "65536 levels";
     }
-    EffectsChoice {
-        Self::Auto => "auto", "only what the scene calls for";
-        Self::All => "all", "everything; the same bits, slower";
-    }
     ProgressStyle {
         Self::Auto => "auto", "a bar on a terminal, else nothing";
         Self::Plain => "plain", "a line now and then";
@@ -68,13 +64,6 @@ words! {
 /// The name of a value as the command line spells it.
 pub(super) fn name_of(value: impl ValueEnum) -> String {
     value.to_possible_value().map_or_else(String::new, |possible| possible.get_name().to_owned())
-}
-
-/// Which effects are assembled.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum EffectsChoice {
-    Auto,
-    All,
 }
 
 /// How progress is shown on standard error.

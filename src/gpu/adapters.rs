@@ -114,7 +114,8 @@ impl AdapterReport {
 
     /// Whether `part`, in any case, is part of the device's or the driver's name. `lavapipe` stands for
     /// `llvmpipe`, the name that it gives itself.
-    fn is_called(&self, part: &str) -> bool {
+    #[must_use]
+    pub fn is_called(&self, part: &str) -> bool {
         let part = part.to_lowercase().replace("lavapipe", "llvmpipe");
         [&self.name, &self.driver].iter().any(|name| name.to_lowercase().contains(&part))
     }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::super::device::DeviceArgs;
-use super::super::values::{AovFile, Crop, EffectsChoice, ProgressStyle, Size, number_in};
+use super::super::values::{AovFile, Crop, ProgressStyle, Size, number_in};
 use crate::film::{BitDepth, Tone};
 use crate::layout::constants::MAX_DEPTH;
 use crate::layout::{Float, Intersector, Precision};
@@ -80,9 +80,6 @@ pub(super) struct ArithmeticArgs {
     /// What a shader compiler may do to arithmetic; the CPU is always strict
     #[arg(long, value_name = "MODE", default_value = "strict")]
     pub(super) float: Float,
-    /// Which effects are simulated; the picture is the same
-    #[arg(long, value_name = "WHICH", default_value = "auto")]
-    pub(super) effects: EffectsChoice,
     /// Test of a ray against a triangle
     #[arg(long, value_name = "TEST", default_value = "watertight")]
     pub(super) intersector: Intersector,

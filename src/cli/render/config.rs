@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::super::CliError;
 use super::super::device::Choice;
-use super::super::values::{AovFile, Crop, EffectsChoice, ProgressStyle, Size};
+use super::super::values::{AovFile, Crop, ProgressStyle, Size};
 use super::args::RenderArgs;
 use super::export::PngOptions;
 use crate::film::{AovKind, Development, Format, Output};
@@ -23,7 +23,6 @@ pub(super) struct RenderConfig {
     pub(super) depth: Option<u32>,
     pub(super) cutoff: Option<f64>,
     pub(super) samples: Option<u32>,
-    pub(super) effects: EffectsChoice,
     pub(super) intersector: Intersector,
     pub(super) crop: Option<Crop>,
     pub(super) png: PngOptions,
@@ -50,7 +49,6 @@ impl RenderConfig {
             depth: args.depth,
             cutoff: args.cutoff,
             samples: args.samples,
-            effects: args.arithmetic.effects,
             intersector: args.arithmetic.intersector,
             crop: args.crop,
             png,

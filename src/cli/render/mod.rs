@@ -11,11 +11,11 @@ use std::time::{Duration, Instant};
 use super::console::{Console, print_json};
 use super::device::Device;
 use super::prepare::Prepared;
-use super::values::{EffectsChoice, Size, name_of};
+use super::values::{Size, name_of};
 use super::{CliError, Outcome};
 use crate::film::{Frame, Metadata, Renderer, Summary};
 use crate::flatten;
-use crate::layout::{Effect, Effects, Settings};
+use crate::layout::{Effects, Settings};
 use crate::scene::RenderDefaults;
 pub(super) use args::RenderArgs;
 use config::RenderConfig;
@@ -99,11 +99,12 @@ impl Job<'_> {
         )
     }
 
+    /// What the scene and the settings call for.
     fn effect_names(&self) -> Vec<String> {
-        let called_for = Effects::of(&self.prepared.flat.scene, &self.settings);
-        let simulated =
-            |effect: &Effect| self.config.effects == EffectsChoice::All || called_for.has(*effect);
-        Effect::ALL.into_iter().filter(simulated).map(|effect| effect.name().to_owned()).collect()
+        Effects::of(&self.prepared.flat.scene, &self.settings)
+            .on()
+            .map(|effect| effect.name().to_owned())
+            .collect()
     }
 
     fn report(&self, times_ms: Times) -> RenderReport {

@@ -1,0 +1,176 @@
+//! The figures of one scene.
+
+use std::path::Path;
+
+use snellius::cpu::CpuRenderer;
+use snellius::film::{Frame, Renderer};
+use snellius::flatten;
+use snellius::gpu::{self, AdapterReport, GpuOptions, GpuRenderer};
+use snellius::layout::{FlatScene, Float, Precision, Settings, Texel};
+use snellius::scene::Scene;
+
+use super::Result;
+
+/// Least percentage of pixels whose rays meet the same primitives when the driver may rewrite sums and products.
+pub(super) const LEAST_EQUAL_FAST: f64 = 99.9;
+/// Least percentage of pixels whose rays meet the same bodies in f32 and f64.
+pub(super) const LEAST_EQUAL_F64: f64 = 97.0;
+/// Most that f32 may differ from f64 in 99 of 100 such pixels, of the brightest radiance or of 1.
+const F64_TOLERANCE: f32 = 1e-4;
+
+/// An adapter, and the size at which it is compared with the CPU.
+pub(super) struct Target {
+    /// The name that it was asked for by.
+    pub(super) name: String,
+    pub(super) report: AdapterReport,
+    pub(super) size: [u32; 2],
+}
+
+impl Target {
+    pub(super) fn find(name: String, size: [u32; 2]) -> Result<Self> {
+        let adapters = gpu::adapters();
+        let Some(report) = adapters.iter().find(|report| report.is_called(&name)).cloned() else {
+            let names: Vec<_> = adapters.into_iter().map(|report| report.name).collect();
+            return Err(format!("no adapter is called {name:?}; there are {names:?}").into());
+        };
+        Ok(Self { name, report, size })
+    }
+}
+
+/// What one scene shows.
+pub(super) struct Row {
+    pub(super) scene: String,
+    pub(super) triangles: usize,
+    /// Rays of the CPU in f32 at the first target's size, shadow rays among them.
+    pub(super) rays: u64,
+    pub(super) strict: Strict,
+    /// Percentage of pixels with the same primitive hash, `--float fast`.
+    pub(super) fast: f64,
+    pub(super) second_strict: Strict,
+    /// Percentage of pixels with the same body hash, f32 against f64.
+    pub(super) bodies: f64,
+    /// 99th percentile of the largest channel's difference between f32 and f64, over these pixels.
+    pub(super) p99: f32,
+    /// What it may be.
+    pub(super) allowed: f32,
+}
+
+/// A strict picture of a GPU against the CPU's.
+pub(super) struct Strict {
+    /// Pixels of which a channel's bits differ.
+    pub(super) differing: usize,
+    /// Whether as many rays of each kind were traced.
+    pub(super) same_rays: bool,
+}
+
+impl Strict {
+    pub(super) fn holds(&self) -> bool {
+        self.differing == 0 && self.same_rays
+    }
+}
+
+impl Row {
+    /// Trace the scene on every device.
+    pub(super) fn measure(path: &Path, first: &Target, second: &Target) -> Result<Self> {
+        let bench = Bench::load(path)?;
+        let single = bench.cpu(first.size, Precision::F32)?;
+        let double = bench.cpu(first.size, Precision::F64)?;
+        let fast = bench.gpu(first, Float::Fast)?;
+        Ok(Self {
+            scene: path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+            triangles: bench.flat.triangles.len(),
+            rays: single.rays.primary + single.rays.reflection + single.rays.refraction + single.rays.shadow,
+            strict: compare(&single, &bench.gpu(first, Float::Strict)?),
+            fast: percent_equal(&single, &fast, |texel| texel.primitive_hash),
+            second_strict: compare(
+                &bench.cpu(second.size, Precision::F32)?,
+                &bench.gpu(second, Float::Strict)?,
+            ),
+            bodies: percent_equal(&single, &double, |texel| texel.body_hash),
+            p99: p99_where_bodies_agree(&single, &double),
+            allowed: F64_TOLERANCE * brightest(&double).max(1.0),
+        })
+    }
+
+    /// The required figures that do not hold.
+    pub(super) fn failures(&self) -> impl Iterator<Item = &'static str> {
+        [
+            (self.strict.holds(), "the strict picture of the first adapter"),
+            (self.fast >= LEAST_EQUAL_FAST, "the fast picture of the first adapter"),
+            (self.second_strict.holds(), "the strict picture of the second adapter"),
+            (self.bodies >= LEAST_EQUAL_F64, "equal body hashes in f32 and f64"),
+            (self.p99 <= self.allowed, "the difference of f32 and f64"),
+        ]
+        .into_iter()
+        .filter_map(|(holds, figure)| (!holds).then_some(figure))
+    }
+}
+
+/// A scene that every device can trace.
+struct Bench {
+    scene: Scene,
+    flat: FlatScene,
+}
+
+impl Bench {
+    fn load(path: &Path) -> Result<Self> {
+        let scene = Scene::load(path)?;
+        let flat = flatten::flatten(&scene)?.scene;
+        Ok(Self { scene, flat })
+    }
+
+    fn cpu(&self, size: [u32; 2], precision: Precision) -> Result<Frame> {
+        let settings = Settings { precision, ..self.settings() };
+        self.trace(&mut CpuRenderer::new(&self.flat, 0)?, size, &settings)
+    }
+
+    fn gpu(&self, target: &Target, float: Float) -> Result<Frame> {
+        let options = GpuOptions { adapter: Some(target.report.name.clone()) };
+        let settings = Settings { float, ..self.settings() };
+        let frame = self.trace(&mut GpuRenderer::new(&self.flat, &options)?, target.size, &settings)?;
+        if frame.float != float {
+            return Err(format!("{} does not trace with --float strict", target.report.name).into());
+        }
+        Ok(frame)
+    }
+
+    fn trace<R: Renderer>(&self, renderer: &mut R, size: [u32; 2], settings: &Settings) -> Result<Frame>
+    where
+        R::Error: std::error::Error + 'static,
+    {
+        let view = flatten::view(&self.scene.camera, &self.flat, size, None, settings);
+        Ok(renderer.render(&view, settings, &())?)
+    }
+
+    fn settings(&self) -> Settings {
+        let render = &self.scene.render;
+        Settings { depth: render.depth, cutoff: render.cutoff as f32, samples: 1, ..Settings::default() }
+    }
+}
+
+fn compare(cpu: &Frame, gpu: &Frame) -> Strict {
+    let differs = |(a, b): &(&Texel, &Texel)| a.radiance.map(f32::to_bits) != b.radiance.map(f32::to_bits);
+    Strict {
+        differing: cpu.texels.iter().zip(&gpu.texels).filter(differs).count(),
+        same_rays: cpu.rays == gpu.rays,
+    }
+}
+
+fn percent_equal(a: &Frame, b: &Frame, hash: impl Fn(&Texel) -> u32) -> f64 {
+    let equal = a.texels.iter().zip(&b.texels).filter(|(a, b)| hash(a) == hash(b)).count();
+    100.0 * equal as f64 / a.texels.len() as f64
+}
+
+fn p99_where_bodies_agree(a: &Frame, b: &Frame) -> f32 {
+    let same = a.texels.iter().zip(&b.texels).filter(|(a, b)| a.body_hash == b.body_hash);
+    let mut differences: Vec<f32> = same
+        .map(|(a, b)| (0..3).map(|c| (a.radiance[c] - b.radiance[c]).abs()).fold(0.0, f32::max))
+        .collect();
+    differences.sort_by(f32::total_cmp);
+    differences.get(differences.len() * 99 / 100).copied().unwrap_or(0.0)
+}
+
+/// The largest channel of the picture.
+fn brightest(frame: &Frame) -> f32 {
+    frame.texels.iter().flat_map(|texel| texel.radiance).fold(0.0, f32::max)
+}
