@@ -99,6 +99,16 @@ fn triangle_slabs(ray: Ray, tri: Triangle) -> Span {
 
 // The nearest triangle in (0, limit), ties to the lowest primitive id.
 fn intersect(ray: Ray, limit: real) -> Hit {
+    return traverse(ray, limit, false);
+}
+
+// Whether any triangle lies in (0, limit): for scenes in which every blocker is opaque.
+fn occluded(ray: Ray, limit: real) -> bool {
+    return traverse(ray, limit, true).id != NONE;
+}
+
+// Walk the tree: to the nearest hit, or if any will do to the first that is found.
+fn traverse(ray: Ray, limit: real, any_hit: bool) -> Hit {
     var best = Hit(limit, 0u, NONE, 0.0, 0.0, false);
     var size = 0u;
     var at = 0u;
@@ -129,6 +139,9 @@ fn intersect(ray: Ray, limit: real) -> Hit {
                 }
             }
         }
+        if any_hit && best.index != NONE {
+            break;
+        }
         // Descend, the farther one waits.
         if inner.x && inner.y {
             bvh_stack[size] = first.y;
@@ -149,52 +162,6 @@ fn intersect(ray: Ray, limit: real) -> Hit {
         best.id = NONE;
     }
     return best;
-}
-
-// Whether any triangle lies in (0, limit): for scenes in which every blocker is opaque.
-fn occluded(ray: Ray, limit: real) -> bool {
-    let start = Hit(limit, 0u, NONE, 0.0, 0.0, false);
-    var size = 0u;
-    var at = 0u;
-    var found = false;
-    while !found {
-        steps += NODE_STEPS;
-        let node = nodes[at];
-        let a = slabs(ray, vec3r(node.a_lo), vec3r(node.a_hi));
-        let b = slabs(ray, vec3r(node.b_lo), vec3r(node.b_hi));
-        var inner = vec2<bool>(false, false);
-        for (var side = 0u; side < 2u; side++) {
-            let is_a = side == 0u;
-            let entry = select(b.entry, a.entry, is_a);
-            let exit = select(b.exit, a.exit, is_a);
-            let begin = select(node.b_first, node.a_first, is_a);
-            let count = select(node.b_count, node.a_count, is_a);
-            let hit = entry <= exit && entry <= limit;
-            let enters = hit && count == 0u;
-            inner = select(vec2<bool>(inner.x, enters), vec2<bool>(enters, inner.y), is_a);
-            if hit {
-                steps += count + LOOP_STEPS;
-                for (var i = begin; i < begin + count && !found; i++) {
-                    found = nearer(ray, i, start).index != NONE;
-                }
-            }
-        }
-        if inner.x && inner.y {
-            bvh_stack[size] = node.b_first;
-            size++;
-            at = node.a_first;
-        } else if inner.x {
-            at = node.a_first;
-        } else if inner.y {
-            at = node.b_first;
-        } else if size > 0u {
-            size--;
-            at = bvh_stack[size];
-        } else {
-            break;
-        }
-    }
-    return found;
 }
 
 // The limit of a ray without end.

@@ -1,10 +1,21 @@
 // Stop 7 of 7: film. Twin of src/kernel/film.rs.
 
 import package::real::{real, vec3r};
-import package::whitted::Sample;
-import package::records::Texel;
+import package::records::{Aov, Texel};
 import package::bindings::frame;
 import package::constants::LEAST_NORMAL;
+
+// What one sample gives the film.
+struct Sample {
+    radiance: vec3r,
+    dropped: real,
+    bound: real,
+    rays: u32,
+    rays_by_kind: vec4u,
+    primitive_hash: u32,
+    body_hash: u32,
+    @if(aovs) aov: Aov,
+}
 
 // Add sample `index` to a pixel's running sums; the last one divides them by the number of samples.
 fn add(before: Texel, sample: Sample, index: u32) -> Texel {

@@ -1,7 +1,8 @@
 // The records in the buffers: see src/layout/records.rs and src/layout/view.rs for what they mean.
 
 import package::constants::{BOUND_ROWS, LANES, MEDIA_ROWS, STACK_SIZE};
-import package::whitted::{Branch, Sample};
+import package::film::Sample;
+import package::whitted::Branch;
 
 struct Node {
     a_lo: vec3f, a_first: u32,

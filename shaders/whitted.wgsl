@@ -4,7 +4,7 @@ import package::real::{real, vec3r};
 import package::background::background;
 import package::bvh::{far, intersect, make_ray, steps};
 import package::camera::primary_ray;
-import package::film::{add, flush, flush3};
+import package::film::{Sample, add, flush, flush3};
 import package::hash::{mix_hash, sample_offset};
 import package::light::direct;
 import package::material::scatter;
@@ -35,18 +35,6 @@ struct Landing {
     distance: real,
     media: u32,
     media_behind: u32,
-}
-
-// What one sample gives the film.
-struct Sample {
-    radiance: vec3r,
-    dropped: real,
-    bound: real,
-    rays: u32,
-    rays_by_kind: vec4u,
-    primitive_hash: u32,
-    body_hash: u32,
-    @if(aovs) aov: Aov,
 }
 
 // The branch to go on with, if `found`.

@@ -104,7 +104,7 @@ mod tests {
             },
         );
         let (local, passed) = (0.5 * 0.2 + 2.0 * 2.0 * (0.5 + 0.25), 0.75_f64);
-        assert_eq!(bounds.len(), 66);
+        assert_eq!(bounds.len(), 65);
         for (level, &bound) in bounds.iter().enumerate() {
             let power = passed.powi(level as i32);
             assert_close(bound, 3.0 * power + local * (1.0 - power) / (1.0 - passed));

@@ -109,6 +109,6 @@ mod tests {
         let names: Vec<&str> =
             view.media[0][..3].iter().map(|&row| flat.material_names[row as usize].as_str()).collect();
         assert_eq!(names, ["water", "ice", "air"]);
-        assert_eq!(view.radiance_bound[16][1], flat.radiance_bound[65]);
+        assert_eq!(view.radiance_bound[16][0], flat.radiance_bound[64]);
     }
 }

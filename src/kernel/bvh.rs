@@ -125,6 +125,16 @@ pub fn triangle_slabs<R: Real>(ray: &Ray<R>, tri: &Triangle) -> Span<R> {
 
 /// The nearest triangle in (0, limit), ties to the lowest primitive id.
 pub fn intersect<R: Real>(world: &World, ray: &Ray<R>, limit: R) -> Hit<R> {
+    traverse(world, ray, limit, false)
+}
+
+/// Whether any triangle lies in (0, limit): for scenes in which every blocker is opaque.
+pub fn occluded<R: Real>(world: &World, ray: &Ray<R>, limit: R) -> bool {
+    traverse(world, ray, limit, true).id != NONE
+}
+
+/// Walk the tree: to the nearest hit, or if `any` will do to the first that is found.
+pub fn traverse<R: Real>(world: &World, ray: &Ray<R>, limit: R, any: bool) -> Hit<R> {
     let mut best = Hit { t: limit, id: 0, index: NONE, b1: R::ZERO, b2: R::ZERO, front: false };
     let mut stack = [0u32; MAX_BVH_DEPTH as usize];
     let mut size = 0;
@@ -150,6 +160,9 @@ pub fn intersect<R: Real>(world: &World, ray: &Ray<R>, limit: R) -> Hit<R> {
                 }
             }
         }
+        if any && best.index != NONE {
+            break;
+        }
         // Descend, the farther one waits.
         if inner[0] && inner[1] {
             stack[size] = first[1];
@@ -170,48 +183,6 @@ pub fn intersect<R: Real>(world: &World, ray: &Ray<R>, limit: R) -> Hit<R> {
         best.id = NONE;
     }
     best
-}
-
-/// Whether any triangle lies in (0, limit): for scenes in which every blocker is opaque.
-pub fn occluded<R: Real>(world: &World, ray: &Ray<R>, limit: R) -> bool {
-    let start = Hit { t: limit, id: 0, index: NONE, b1: R::ZERO, b2: R::ZERO, front: false };
-    let mut stack = [0u32; MAX_BVH_DEPTH as usize];
-    let mut size = 0;
-    let mut at = 0u32;
-    loop {
-        let node = &world.scene.nodes[at as usize];
-        let a = slabs(ray, Vec3::load(node.a_lo), Vec3::load(node.a_hi));
-        let b = slabs(ray, Vec3::load(node.b_lo), Vec3::load(node.b_hi));
-        let mut inner = [false; 2];
-        for (side, enters) in inner.iter_mut().enumerate() {
-            let is_a = side == 0;
-            let (span, count) = if is_a { (a, node.a_count) } else { (b, node.b_count) };
-            let first = if is_a { node.a_first } else { node.b_first };
-            let hit = span.entry <= span.exit && span.entry <= limit;
-            *enters = hit && count == 0;
-            if hit {
-                for i in first..first + count {
-                    if nearer(world, ray, i, start).index != NONE {
-                        return true;
-                    }
-                }
-            }
-        }
-        if inner[0] && inner[1] {
-            stack[size] = node.b_first;
-            size += 1;
-            at = node.a_first;
-        } else if inner[0] {
-            at = node.a_first;
-        } else if inner[1] {
-            at = node.b_first;
-        } else if size > 0 {
-            size -= 1;
-            at = stack[size];
-        } else {
-            return false;
-        }
-    }
 }
 
 /// The limit of a ray without end.

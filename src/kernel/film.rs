@@ -1,10 +1,30 @@
 //! Stop 7 of 7: film. Twin of `shaders/film.wgsl`.
 
-use crate::layout::Texel;
 use crate::layout::constants::LEAST_NORMAL;
+use crate::layout::{Aov, Texel};
 
-use super::whitted::Sample;
 use super::{Real, Vec3, World};
+
+/// What one sample gives the film.
+#[derive(Debug, Clone, Copy)]
+pub struct Sample<R> {
+    /// Radiance.
+    pub radiance: Vec3<R>,
+    /// Summed largest weight channels of cut rays.
+    pub dropped: R,
+    /// Certified bound on what cutting them changed.
+    pub bound: R,
+    /// Traced rays of all kinds.
+    pub rays: u32,
+    /// Traced rays by kind: primary, reflection, refraction, shadow.
+    pub rays_by_kind: [u32; 4],
+    /// Over primitive ids, branches and light visibilities.
+    pub primitive_hash: u32,
+    /// Over bodies, sides, branches and light visibilities.
+    pub body_hash: u32,
+    /// What the primary ray met.
+    pub aov: Aov,
+}
 
 /// Add sample `index` to a pixel's running sums; the last one divides them by the number of samples.
 pub fn add<R: Real>(world: &World, texel: &mut Texel, sample: &Sample<R>, index: u32) {

@@ -9,7 +9,7 @@ use crate::layout::{Aov, Texel};
 use super::background::background;
 use super::bvh::{far, intersect, make_ray};
 use super::camera::primary_ray;
-use super::film;
+use super::film::{self, Sample};
 use super::hash::{mix_hash, sample_offset};
 use super::light::direct;
 use super::material::scatter;
@@ -50,27 +50,6 @@ pub struct Landing<R> {
     pub media: u32,
     /// Media mask behind the surface.
     pub media_behind: u32,
-}
-
-/// What one sample gives the film.
-#[derive(Debug, Clone, Copy)]
-pub struct Sample<R> {
-    /// Radiance.
-    pub radiance: Vec3<R>,
-    /// Summed largest weight channels of cut rays.
-    pub dropped: R,
-    /// Certified bound on what cutting them changed.
-    pub bound: R,
-    /// Traced rays of all kinds.
-    pub rays: u32,
-    /// Traced rays by kind: primary, reflection, refraction, shadow.
-    pub rays_by_kind: [u32; 4],
-    /// Over primitive ids, branches and light visibilities.
-    pub primitive_hash: u32,
-    /// Over bodies, sides, branches and light visibilities.
-    pub body_hash: u32,
-    /// What the primary ray met.
-    pub aov: Aov,
 }
 
 /// Trace samples [first, first + count) of a pixel of the whole picture onto its texel. The AOV is that of sample 0.

@@ -194,11 +194,11 @@ mod tests {
         let places = |corners: &[DVec3]| {
             let sorted = |triangle: [usize; 3]| {
                 let mut points = triangle.map(|corner| corners[corner].to_array());
-                points.sort_by(|a, b| a.partial_cmp(b).unwrap());
+                points.sort_by(|a, b| a.partial_cmp(b).unwrap_or(Ordering::Equal));
                 points
             };
             let mut triangles: Vec<_> = triangulate(corners).into_iter().map(sorted).collect();
-            triangles.sort_by(|a, b| a.partial_cmp(b).unwrap());
+            triangles.sort_by(|a, b| a.partial_cmp(b).unwrap_or(Ordering::Equal));
             triangles
         };
         let expected = places(&arrow);

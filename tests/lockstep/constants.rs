@@ -6,11 +6,10 @@ use snellius::layout::constants::{SHARED, Shared};
 use super::planted::Planted;
 
 /// Whole numbers below this are indices and factors, of which every program is full.
-const TRIVIAL: f64 = 5.0;
+const TRIVIAL: f64 = 6.0;
 
 /// Literals that equal a shared number by chance: file, literal, how often, and what it is.
 const ALLOWED: &[(&str, &str, usize, &str)] = &[
-    ("bindings", "8", 1, "the number of a binding"),
     ("hash", "8", 1, "32 bits less the 24 of a fraction"),
     ("hash", "0x80000000u", 1, "one half in 32 bits"),
     ("math", "17.0", 1, "a term of the arctangent's series"),
