@@ -79,7 +79,7 @@ fn pictures_that_cannot_be_compared_are_usage_errors() {
         ("diff a.exr broken.png", "cannot read the picture broken.png"),
         (
             "diff a.exr a.exr --fail-above ssim=1",
-            "no such metric; there are rmse, max, flip, differing_pixels",
+            "a limit is set on one of rmse, max, flip, differing_pixels",
         ),
         ("diff a.exr a.exr -o d.exr", "the picture of the differences is a PNG"),
         ("diff a.exr a.exr -o - --json", "both want standard output"),
