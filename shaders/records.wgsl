@@ -1,4 +1,4 @@
-// The records in the buffers: see src/layout/records.rs and src/layout/view.rs for what they mean.
+// The records in the buffers: src/layout says what they mean.
 
 import package::constants::{BOUND_ROWS, LANES, MEDIA_ROWS, STACK_SIZE};
 import package::film::Sample;
@@ -76,7 +76,7 @@ struct Frame {
 
 // Which blocks and samples a dispatch traces, and how far.
 struct Tile {
-    first_block: u32, block_count: u32, first_sample: u32, sample_count: u32,
+    first_block: u32, block_count: u32, first_sample: u32, sample_count: u32, first_row: u32,
     step_budget: u32, resume: u32, canary_rounds: u32, canary_result: u32,
 }
 
@@ -99,7 +99,6 @@ struct FilmHead {
     tile: Tile,
     done: atomic<u32>, paused: atomic<u32>, cut_short: atomic<u32>,
     primary: atomic<u32>, reflection: atomic<u32>, refraction: atomic<u32>, shadow: atomic<u32>,
-    reserved: u32,
 }
 
 // The film, with the invocations of one dispatch.

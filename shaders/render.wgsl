@@ -17,7 +17,8 @@ fn render(
     let y = (block / columns) * BLOCK + local.y;
     if x < crop.z && y < crop.w {
         lane = group.x * BLOCK * BLOCK + index;
-        if !trace_pixel(vec2u(crop.x + x, crop.y + y), y * crop.z + x) {
+        let slot = (y - film.head.tile.first_row) * crop.z + x;
+        if !trace_pixel(vec2u(crop.x + x, crop.y + y), slot) {
             atomicAdd(&film.head.paused, 1u);
         }
     }

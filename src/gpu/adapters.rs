@@ -88,9 +88,9 @@ pub struct AdapterReport {
 }
 
 impl AdapterReport {
-    /// Rounds of loops after which an invocation rests. On a card this bounds the time of a submission. Mesa's llvmpipe ends
-    /// all loops after 65535 rounds (`LP_MAX_TGSI_LOOP_ITERATIONS` of its gallivm), counting those of eight invocations
-    /// in step together, and the budget is only looked at between two rays.
+    /// Rounds of loops after which an invocation rests. On a card this bounds the time of a submission. Mesa's llvmpipe
+    /// ends all loops after 65535 rounds (`LP_MAX_TGSI_LOOP_ITERATIONS` of its gallivm), counting those of eight
+    /// invocations in step together: an eighth of them, halved for the ray that spends the last step.
     pub(super) fn step_budget(&self) -> u32 {
         if self.driver.contains("llvmpipe") { 4096 } else { 65_536 }
     }

@@ -1,13 +1,12 @@
 //! The connection to one adapter, with every complaint of the driver turned into an error.
 
 use std::ops::Range;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use super::adapters::{AdapterReport, choose, instance};
 use super::pipeline::STORAGE_BUFFERS;
-use super::{GpuError, GpuOptions};
+use super::{GpuError, GpuOptions, quiet};
 
 /// How long one submission may take before the device counts as lost: a thousand times what it is meant to.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -18,6 +17,8 @@ const TRANSFER: u64 = 32 << 20;
 /// A device, its queue, and what went wrong there.
 pub(super) struct Context {
     pub(super) adapter: AdapterReport,
+    /// [`Tile::step_budget`](crate::layout::Tile) of its submissions.
+    pub(super) step_budget: u32,
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
     faults: Arc<Mutex<Option<Fault>>>,
@@ -37,7 +38,7 @@ impl Context {
         let report = AdapterReport::new(&adapter);
         if report.max_storage_buffers < STORAGE_BUFFERS {
             let reason = format!("a shader sees {} storage buffers there", report.max_storage_buffers);
-            return Err(report.refused("ten storage buffers", reason));
+            return Err(report.refused("eight storage buffers", reason));
         }
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("snellius"),
@@ -50,7 +51,7 @@ impl Context {
             .map_err(|error| report.refused("a device", error.to_string()))?;
         let faults = Arc::default();
         listen(&device, &faults);
-        Ok(Self { adapter: report, device, queue, faults })
+        Ok(Self { step_budget: report.step_budget(), adapter: report, device, queue, faults })
     }
 
     /// What the driver reported since the last time.
@@ -66,13 +67,13 @@ impl Context {
     pub(super) fn wait(&self) -> Result<(), GpuError> {
         let wait = wgpu::PollType::Wait { submission_index: None, timeout: Some(PATIENCE) };
         // wgpu panics when a device is lost while it is waited for; the callback has the reason.
-        let waited = catch_unwind(AssertUnwindSafe(|| self.device.poll(wait)));
+        let waited = quiet::catch(|| self.device.poll(wait));
         self.check()?;
         let lost = |reason: String| GpuError::DeviceLost { reason };
         match waited {
-            Ok(Ok(_)) => Ok(()),
-            Ok(Err(error)) => Err(lost(error.to_string())),
-            Err(_) => Err(lost("the driver gave up while it was waited for".into())),
+            Some(Ok(_)) => Ok(()),
+            Some(Err(error)) => Err(lost(error.to_string())),
+            None => Err(lost("the driver gave up while it was waited for".into())),
         }
     }
 
@@ -81,9 +82,14 @@ impl Context {
         self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default())
     }
 
+    /// Bytes of the largest buffer that a shader sees whole.
+    pub(super) fn largest_binding(&self) -> u64 {
+        self.adapter.max_storage_binding.min(self.adapter.max_buffer)
+    }
+
     /// Whether one buffer can hold that much and a shader see it.
     pub(super) fn check_size(&self, what: &'static str, needed: u64) -> Result<(), GpuError> {
-        let limit = self.adapter.max_storage_binding.min(self.adapter.max_buffer);
+        let limit = self.largest_binding();
         if needed <= limit {
             return Ok(());
         }
@@ -163,17 +169,12 @@ impl Context {
     }
 }
 
-/// The least that a device must have, with buffers as large as the adapter's.
+/// What WebGPU promises, with buffers as large as the adapter's.
 fn limits(adapter: &AdapterReport) -> wgpu::Limits {
-    let least = wgpu::Limits::default();
-    let others = least.max_buffers_and_acceleration_structures_per_shader_stage
-        - least.max_storage_buffers_per_shader_stage;
     wgpu::Limits {
-        max_storage_buffers_per_shader_stage: STORAGE_BUFFERS,
-        max_buffers_and_acceleration_structures_per_shader_stage: others + STORAGE_BUFFERS,
         max_storage_buffer_binding_size: adapter.max_storage_binding,
         max_buffer_size: adapter.max_buffer,
-        ..least
+        ..wgpu::Limits::default()
     }
 }
 
@@ -194,10 +195,5 @@ fn listen(device: &wgpu::Device, faults: &Arc<Mutex<Option<Fault>>>) {
         note(&sink, Fault::Error(error.to_string()))
     }));
     let sink = Arc::clone(faults);
-    device.set_device_lost_callback(move |reason, message| {
-        // A device that the program itself closes is no loss.
-        if reason != wgpu::DeviceLostReason::Destroyed {
-            note(&sink, Fault::Lost(message));
-        }
-    });
+    device.set_device_lost_callback(move |_, message| note(&sink, Fault::Lost(message)));
 }

@@ -1,4 +1,4 @@
-//! The film in device memory: a head that is told and counts, the stacks of one dispatch, and the pixels.
+//! The film in device memory: a head that is told and counts, the invocations of one dispatch, and the pixels.
 
 use bytemuck::{Pod, Zeroable, bytes_of, cast_slice, from_bytes};
 
@@ -17,7 +17,7 @@ struct FullTexel {
     aov: Aov,
 }
 
-/// The film in device memory. A clone is the same film.
+/// A film in device memory: of the whole picture, or of a band of it. A clone is the same film.
 #[derive(Clone)]
 pub(super) struct FilmBuffer {
     pub(super) buffer: wgpu::Buffer,
@@ -49,10 +49,15 @@ impl FilmBuffer {
         (self.texels_at, self.pixels, self.aovs) == (texels_at, pixels, aovs)
     }
 
-    /// Forget the picture.
+    /// How many pixels fit a buffer of `limit` bytes.
+    pub(super) fn most_pixels(limit: u64, texels_at: u64, aovs: bool) -> u64 {
+        limit.saturating_sub(texels_at) / texel_size(aovs)
+    }
+
+    /// Forget the pixels.
     pub(super) fn clear(&self, context: &Context) {
         let mut encoder = context.encoder();
-        encoder.clear_buffer(&self.buffer, 0, None);
+        encoder.clear_buffer(&self.buffer, self.texels_at, None);
         context.queue.submit([encoder.finish()]);
     }
 
@@ -72,21 +77,23 @@ impl FilmBuffer {
         context.map(&self.head, HEAD, |bytes| *from_bytes(bytes))
     }
 
-    /// The pixels, and their AOVs if the film has them.
-    pub(super) fn read(&self, context: &Context) -> Result<(Vec<Texel>, Option<Vec<Aov>>), GpuError> {
-        let mut texels = Vec::with_capacity(self.pixels as usize);
-        let mut aovs = Vec::new();
-        let end = self.texels_at + self.pixels * texel_size(self.aovs);
-        context.read(&self.buffer, self.texels_at..end, |bytes| {
-            if self.aovs {
+    /// Append the first `pixels` to `texels`, and to `aovs` if the film has them.
+    pub(super) fn read(
+        &self,
+        context: &Context,
+        pixels: u64,
+        texels: &mut Vec<Texel>,
+        aovs: Option<&mut Vec<Aov>>,
+    ) -> Result<(), GpuError> {
+        let range = self.texels_at..self.texels_at + pixels * texel_size(self.aovs);
+        match aovs {
+            None => context.read(&self.buffer, range, |bytes| texels.extend_from_slice(cast_slice(bytes))),
+            Some(aovs) => context.read(&self.buffer, range, |bytes| {
                 let pixels: &[FullTexel] = cast_slice(bytes);
                 texels.extend(pixels.iter().map(|pixel| pixel.texel));
                 aovs.extend(pixels.iter().map(|pixel| pixel.aov));
-            } else {
-                texels.extend_from_slice(cast_slice(bytes));
-            }
-        })?;
-        Ok((texels, self.aovs.then_some(aovs)))
+            }),
+        }
     }
 }
 

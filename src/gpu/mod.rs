@@ -3,9 +3,21 @@
 //! [`assemble()`] joins shader files into one checked module; [`write_spirv()`] writes it, strict if asked; [`GpuRenderer`]
 //! uploads a scene and traces it tile after tile, each submission short and each accounted for; [`Prober`] runs single
 //! functions for the lock-step comparison with the CPU. Nothing here knows the CPU's kernel.
+//!
+//! **Rests.** An invocation counts the rounds of its loops. After a budget of them it rests between two rays, its tree in
+//! the film buffer, and the next dispatch resumes it: no submission is long, however deep the tree. Loops within a
+//! ray are not cut. Mesa's llvmpipe ends those, in silence, after 65535 rounds; a canary loop at the end of each
+//! invocation tells, and the picture is refused.
+//!
+//! **f64.** WGSL's f64 has arithmetic, `sqrt`, `floor` and `abs`, and the kernel needs three functions more. exp is a
+//! Taylor series in f64. Two go through f32: the power of the specular lobe, whose highlights are good to β·2^-24 of
+//! their brightness, and the arctangent that finds a direction in a background picture, good to 2^-22 of a turn. On
+//! lavapipe all the rest is the CPU's f64: without highlights the pictures are the same to the last bit of the film
+//! but one, with those of `scenes/opaque.toml` to 7e-7, where f32 is off by 1e-1 at an edge.
 
 mod adapters;
 mod assemble;
+mod blocks;
 mod buffers;
 mod context;
 mod error;
@@ -15,10 +27,10 @@ mod locate;
 mod pace;
 mod pipeline;
 mod probe;
+mod quiet;
 mod render;
 mod sources;
 mod spirv;
-#[cfg(test)]
 mod testing;
 mod variant;
 

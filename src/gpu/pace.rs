@@ -46,27 +46,22 @@ impl Pace {
         Self { blocks, samples, most_blocks, width: width.min(most_blocks), last, units: f64::from(width) }
     }
 
-    /// The next tile to submit; none when the picture is done.
-    pub(super) fn next(&mut self) -> Option<Tile> {
+    /// The next tile to submit, of the blocks before `end`; none when those are done.
+    pub(super) fn next(&mut self, end: u32) -> Option<Tile> {
         let first_sample = self.last.first_sample + self.last.sample_count;
-        self.last = if first_sample < self.samples {
-            Tile {
-                first_sample,
-                sample_count: self.fitting_samples(self.last.block_count, first_sample),
-                ..self.last
-            }
-        } else {
-            let first_block = self.last.first_block + self.last.block_count;
-            let block_count = self.fitting_blocks().min(self.blocks - first_block);
-            Tile {
-                first_block,
-                block_count,
-                first_sample: 0,
-                sample_count: self.fitting_samples(block_count, 0),
-                ..Tile::default()
-            }
-        };
-        (self.last.block_count > 0).then_some(self.last)
+        if first_sample < self.samples {
+            let sample_count = self.fitting_samples(self.last.block_count, first_sample);
+            self.last = Tile { first_sample, sample_count, ..self.last };
+            return Some(self.last);
+        }
+        let first_block = self.last.first_block + self.last.block_count;
+        if first_block >= end {
+            return None;
+        }
+        let block_count = self.fitting_blocks().min(end - first_block);
+        let sample_count = self.fitting_samples(block_count, 0);
+        self.last = Tile { first_block, block_count, sample_count, ..Tile::default() };
+        Some(self.last)
     }
 
     /// Learn from what the last tile took.
@@ -113,15 +108,18 @@ mod tests {
         unit * tile.block_count.div_ceil(WIDTH) * tile.sample_count
     }
 
-    /// The tiles of a picture.
+    /// The tiles of a picture in two bands.
     fn tiles(blocks: u32, samples: u32, unit: Duration) -> Vec<Tile> {
         let mut pace = Pace::with_width(blocks, samples, 4096, WIDTH);
         let mut tiles = Vec::new();
-        while let Some(tile) = pace.next() {
-            tiles.push(tile);
-            pace.took(time(tile, unit));
+        for end in [blocks / 3, blocks] {
+            while let Some(tile) = pace.next(end) {
+                assert!(tile.first_block + tile.block_count <= end);
+                tiles.push(tile);
+                pace.took(time(tile, unit));
+            }
+            assert_eq!(pace.finished_blocks(), end);
         }
-        assert_eq!(pace.finished_blocks(), blocks);
         assert_eq!(pace.progress().0, pace.progress().1);
         tiles
     }
@@ -153,7 +151,7 @@ mod tests {
 
     #[test]
     fn a_slow_adapter_is_kept_busy() {
-        let tiles = tiles(64, 4, Duration::from_millis(40));
+        let tiles = tiles(96, 4, Duration::from_millis(40));
         assert!(tiles.iter().all(|tile| tile.block_count == WIDTH && tile.sample_count == 1), "{tiles:?}");
     }
 

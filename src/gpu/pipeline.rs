@@ -135,3 +135,22 @@ fn entry_point(point: &naga::EntryPoint) -> wgpu::PassthroughShaderEntryPoint<'_
     let [x, y, z] = point.workgroup_size;
     wgpu::PassthroughShaderEntryPoint { name: point.name.as_str().into(), workgroup_size: (x, y, z) }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::super::SOURCES;
+    use super::super::testing::PLAIN;
+    use super::*;
+
+    #[test]
+    fn the_invocations_of_a_dispatch_take_tens_of_megabytes() {
+        for precision in [Precision::F32, Precision::F64] {
+            for stack_size in [2, 18, 66] {
+                let variant = Variant { precision, stack_size, aovs: true, ..PLAIN };
+                let bytes = texels_at(&assemble(SOURCES, "render", "render", &variant).unwrap().module);
+                assert!((8 << 20..33 << 20).contains(&bytes), "{variant:?}: {bytes}");
+            }
+        }
+    }
+}

@@ -1,16 +1,17 @@
-//! Tracing a view on an adapter: tile after tile into the film, then the film to the host.
+//! A scene on an adapter, and the pictures that are traced of it.
 
 use std::collections::HashMap;
 use std::time::{Duration, Instant};
 
+use super::blocks::Blocks;
 use super::buffers::SceneBuffers;
 use super::context::Context;
 use super::film::FilmBuffer;
-use super::job::{Blocks, Job};
+use super::job::Job;
 use super::pace::Pace;
 use super::pipeline::Compiled;
 use super::{AdapterReport, GpuError, GpuOptions, SOURCES, Variant, pipeline};
-use crate::film::{Frame, Progress, Renderer, TraceTimes};
+use crate::film::{Frame, Progress, RayCounts, Renderer, TraceTimes};
 use crate::layout::{FlatScene, Float, Settings, Tile, View};
 
 /// File and name of the entry point.
@@ -60,7 +61,29 @@ impl GpuRenderer {
         Variant { float, ..variant }
     }
 
-    /// The film of the last picture if it has the right size, else a new one.
+    /// Compile the variant, make room for the picture and take it in view.
+    fn prepare(&mut self, view: &View, variant: &Variant) -> Result<Job<'_>, GpuError> {
+        let (compiled, is_new) = self.pipeline(variant)?;
+        // As many rows as fit one buffer.
+        let [_, _, width, height] = view.crop;
+        let blocks = Blocks::new(width, height);
+        let limit = self.context.largest_binding();
+        let most_pixels = FilmBuffer::most_pixels(limit, compiled.texels_at, variant.aovs);
+        let band_height = blocks.band_height(most_pixels);
+        let pixels = u64::from(width) * u64::from(band_height);
+        let film = self.film(compiled.texels_at, pixels, variant.aovs)?;
+        self.scene.set_view(&self.context, view);
+        let group = self.scene.bind(&self.context, &film.buffer);
+        let job =
+            Job { context: &self.context, pipeline: compiled.pipeline, film, group, blocks, band_height };
+        if is_new {
+            // Some drivers compile at the first dispatch: have one outside the picture.
+            job.submit(Tile { first_block: blocks.count(), block_count: 1, ..Tile::default() })?;
+        }
+        Ok(job)
+    }
+
+    /// The film of the last picture if it is laid out so, else a new one.
     fn film(&mut self, texels_at: u64, pixels: u64, aovs: bool) -> Result<FilmBuffer, GpuError> {
         let film = match self.film.take() {
             Some(film) if film.fits(texels_at, pixels, aovs) => film,
@@ -83,11 +106,12 @@ impl GpuRenderer {
 impl Renderer for GpuRenderer {
     type Error = GpuError;
 
-    /// Trace the view.
+    /// Trace the view: in bands, one after the other, where the adapter cannot hold the picture in one buffer.
     ///
     /// # Errors
-    /// [`GpuError::NoF64`], [`GpuError::Shader`], [`GpuError::Refused`], [`GpuError::TooLarge`] for the picture,
-    /// [`GpuError::OutOfMemory`], [`GpuError::DeviceLost`], [`GpuError::TileLost`].
+    /// [`GpuError::NoF64`], [`GpuError::Shader`], [`GpuError::Refused`], [`GpuError::TooLarge`] for a picture of
+    /// which not even one row of blocks fits, [`GpuError::OutOfMemory`], [`GpuError::DeviceLost`],
+    /// [`GpuError::TileLost`], [`GpuError::LoopLimit`].
     fn render(
         &mut self,
         view: &View,
@@ -95,37 +119,28 @@ impl Renderer for GpuRenderer {
         progress: &dyn Progress,
     ) -> Result<Frame, GpuError> {
         let start = Instant::now();
-        let [_, _, width, height] = view.crop;
-        let blocks = Blocks::new(width, height);
+        let upload = std::mem::take(&mut self.upload);
         let variant = self.variant(settings);
-        // Compile, and make room.
-        let (pipeline, is_new) = self.pipeline(&variant)?;
-        let film = self.film(pipeline.texels_at, u64::from(width) * u64::from(height), settings.aovs)?;
-        film.clear(&self.context);
-        self.scene.set_view(&self.context, view);
-        let group = self.scene.bind(&self.context, &film.buffer);
-        let job = Job { context: &self.context, pipeline: &pipeline.pipeline, film: &film, group };
-        if is_new {
-            // Some drivers compile at the first dispatch: have one outside the picture.
-            job.submit(Tile { first_block: blocks.count(), block_count: 1, ..Tile::default() })?;
-        }
-        let compiled = Instant::now();
-        // Trace.
-        let mut pace =
-            Pace::new(blocks.count(), view.samples, variant.most_blocks(), self.context.adapter.kind);
-        let rays = job.trace(&mut pace, progress)?;
-        let traced = Instant::now();
-        // Bring the picture home.
-        let (texels, aovs) = film.read(&self.context)?;
-        let times = TraceTimes {
-            upload: std::mem::take(&mut self.upload),
-            compile: compiled - start,
-            trace: traced - compiled,
-            readback: traced.elapsed(),
+        let job = self.prepare(view, &variant)?;
+        let blocks = job.blocks;
+        let times = TraceTimes { upload, compile: start.elapsed(), ..TraceTimes::default() };
+        let mut frame = Frame {
+            width: blocks.width,
+            height: blocks.height,
+            texels: Vec::new(),
+            aovs: variant.aovs.then(Vec::new),
+            float: variant.float,
+            rays: RayCounts::default(),
+            times,
+            complete: false,
         };
-        let complete = pace.finished_blocks() == blocks.count();
-        let mut frame = Frame { width, height, texels, aovs, float: variant.float, rays, times, complete };
+        let kind = job.context.adapter.kind;
+        let mut pace = Pace::new(blocks.count(), view.samples, variant.most_blocks(), kind);
+        job.trace(&mut pace, progress, &mut frame)?;
+        frame.complete = pace.finished_blocks() == blocks.count();
         blocks.erase_from(pace.finished_blocks(), &mut frame);
         Ok(frame)
     }
 }
+
+mod tests;

@@ -3,9 +3,11 @@
 use crate::layout::constants::{BLOCK, ROUNDOFF_F32, ROUNDOFF_F64, SHARED, Shared};
 use crate::layout::{Float, Intersector, Precision, Settings};
 
-/// Bytes of a waiting ray in f32, about.
-const BRANCH_BYTES: u32 = 64;
-/// Bytes that the stacks of one dispatch may take.
+/// Bytes of a waiting ray in f32; in f64 twice as many.
+const BRANCH_BYTES: u32 = 48;
+/// Waiting rays that the rest of an invocation's memory counts for: the sample in work.
+const SAMPLE_BRANCHES: u32 = 3;
+/// Bytes that the invocations of one dispatch may take.
 const LANE_MEMORY: u32 = 32 << 20;
 /// Blocks of a dispatch, however deep their stacks.
 const LEAST_BLOCKS: u32 = 16;
@@ -44,14 +46,15 @@ impl Variant {
         }
     }
 
-    /// Most blocks of one dispatch: their stacks lie in the film buffer, and are to take tens of megabytes only.
+    /// Most blocks of one dispatch: the stacks and samples of their invocations lie in the film buffer, and are to take
+    /// tens of megabytes only.
     #[must_use]
     pub fn most_blocks(&self) -> u32 {
         let word = match self.precision {
             Precision::F32 => 1,
             Precision::F64 => 2,
         };
-        let lane = (self.stack_size + 2) * BRANCH_BYTES * word;
+        let lane = (self.stack_size + SAMPLE_BRANCHES) * BRANCH_BYTES * word;
         (LANE_MEMORY / (lane * BLOCK * BLOCK)).clamp(LEAST_BLOCKS, MOST_BLOCKS)
     }
 

@@ -16,6 +16,8 @@ pub struct Tile {
     pub first_sample: u32,
     /// Number of samples; with the last of `View::samples` the sums are divided.
     pub sample_count: u32,
+    /// Row of the crop that the film begins with: a film that cannot hold the whole picture holds a band of it.
+    pub first_row: u32,
     /// Rounds of loops after which an invocation rests between two rays; the next dispatch resumes it.
     pub step_budget: u32,
     /// 1 to go on with the invocations that rest, 0 to begin.
@@ -54,6 +56,4 @@ pub struct FilmHead {
     pub refraction: u32,
     /// Rays towards lights.
     pub shadow: u32,
-    /// Unused, 0.
-    pub reserved: u32,
 }

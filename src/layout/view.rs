@@ -1,10 +1,10 @@
-//! What changes from frame to frame: the camera and the scene's small constants, as one uniform record.
+//! What changes from frame to frame: the camera and the scene's small constants, as one record.
 
 use bytemuck::{Pod, Zeroable};
 
 use super::constants::{BOUND_ROWS, MEDIA_ROWS};
 
-/// Camera, picture and scene constants. Uniform buffer; all vec3s are followed by a scalar.
+/// Camera, picture and scene constants: head of the buffer that ends with the lights. All vec3s are followed by a scalar.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct View {

@@ -42,8 +42,9 @@ fn violations(module: &str, text: &str) -> Vec<String> {
     let Some((_, allowed)) = MAY_IMPORT.iter().find(|(name, _)| *name == module) else { return Vec::new() };
     let forbidden = FORBIDDEN_CRATES.iter().filter(|(name, _)| *name == module).flat_map(|(_, list)| *list);
     let forbidden: Vec<_> = forbidden.collect();
-    // Unit tests at the end of a file may import what they please.
-    let code = text.lines().take_while(|line| !line.starts_with("#[cfg(test)]"));
+    // Unit tests at the end of a file, or in one of their own, may import what they please.
+    let is_test = |line: &&str| line.starts_with("#[cfg(test)]") || line.starts_with("#![cfg(test)]");
+    let code = text.lines().take_while(|line| !is_test(line));
     let mut found = Vec::new();
     for (number, line) in code.enumerate() {
         let imported = line

@@ -1,9 +1,9 @@
-//! The software adapters that these tests run on.
+//! The software adapters that tests run on: here, and beside the code in src/gpu.
 
 use std::path::Path;
 use std::sync::Once;
 
-use snellius::gpu::{GpuOptions, adapters};
+use super::gpu::{GpuOptions, adapters};
 
 /// Where browsers keep SwiftShader's driver manifest.
 const SWIFTSHADER: [&str; 5] = [
@@ -24,7 +24,7 @@ pub(crate) fn on_each(test: impl Fn(&GpuOptions)) {
 }
 
 /// The adapter of that name. Where it is missing the test is skipped with a line, but fails in CI.
-pub(super) fn find(part: &str) -> Option<GpuOptions> {
+pub(crate) fn find(part: &str) -> Option<GpuOptions> {
     show_swiftshader();
     if adapters().iter().any(|adapter| adapter.name.to_lowercase().contains(part)) {
         return Some(GpuOptions { adapter: Some(part.to_owned()) });

@@ -124,6 +124,7 @@ fn rust_records() -> Vec<Record> {
                 block_count,
                 first_sample,
                 sample_count,
+                first_row,
                 step_budget,
                 resume,
                 canary_rounds,
@@ -132,7 +133,7 @@ fn rust_records() -> Vec<Record> {
         ),
         record!(
             "FilmHead",
-            FilmHead { tile, done, paused, cut_short, primary, reflection, refraction, shadow, reserved }
+            FilmHead { tile, done, paused, cut_short, primary, reflection, refraction, shadow }
         ),
         film_texel,
         frame,

@@ -16,3 +16,5 @@ mod scene;
 mod strict;
 mod twins;
 mod variants;
+
+use snellius::gpu;

@@ -100,22 +100,6 @@ fn a_stop_keeps_what_is_finished() {
 }
 
 #[test]
-fn a_picture_over_the_adapters_limit_is_refused_with_both_figures() {
-    let Some(options) = find("llvmpipe") else { return };
-    let scene = scene::triangle();
-    let mut renderer = GpuRenderer::new(&scene, &options).unwrap();
-    let side = 1 << 15;
-    let view = scene::view(&scene, side, side, 1);
-    let Err(error) = renderer.render(&view, &settings(&view), &()) else { panic!("drawn all the same") };
-    let GpuError::TooLarge { needed, limit, .. } = error else { panic!("{error}") };
-    assert!(needed > u64::from(side) * u64::from(side) * 64, "{needed}");
-    assert!(limit < needed && error.exit_code() == 2);
-    assert!(
-        error.to_string().contains(&needed.to_string()) && error.to_string().contains(&limit.to_string())
-    );
-}
-
-#[test]
 fn double_precision_is_close_to_the_cpu_or_refused() {
     on_each(|options| {
         let scene = scene::triangle();
