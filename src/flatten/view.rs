@@ -1,4 +1,4 @@
-//! The uniform record of a frame.
+//! The view record of a frame.
 
 use std::array;
 
