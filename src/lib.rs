@@ -9,3 +9,4 @@ pub mod gpu;
 pub mod kernel;
 pub mod layout;
 pub mod scene;
+pub mod selftest;
