@@ -5,3 +5,4 @@ mod closed_forms;
 mod layering;
 mod lockstep;
 mod scenes;
+mod selftest;
