@@ -46,17 +46,17 @@ fn every_case_holds_on_each_adapter() {
 #[test]
 fn the_textbooks_triangle_test_leaks() {
     let t1 = CASES.iter().find(|case| case.id == "T1").unwrap();
-    for precision in [Precision::F32, Precision::F64] {
-        assert!(!fallen(t1, &mut CpuDevice::new(precision, Intersector::MollerTrumbore)).is_empty());
-    }
+    assert!(!fallen(t1, &mut CpuDevice::new(Precision::F32, Intersector::MollerTrumbore)).is_empty());
 }
 
 #[test]
 fn cases_are_numbered_in_order_and_fit_a_table() {
-    let numbers: Vec<u32> = CASES.iter().map(|case| case.id[1..].parse().unwrap()).collect();
-    assert!(numbers.is_sorted_by(|a, b| a < b), "{numbers:?}");
+    // T for the hard cases, then C for closed forms.
+    let number = |case: &Case| case.id[1..].parse::<u32>().unwrap();
+    let key = |case: &Case| (case.id.starts_with('C'), number(case));
+    assert!(CASES.is_sorted_by(|a, b| key(a) < key(b)));
     for case in CASES {
-        assert!(case.id.starts_with('T') && case.title.chars().count() <= 32, "{}", case.title);
+        assert!(case.title.chars().count() <= 32, "{}", case.title);
         assert!(!case.claim.ends_with('.'), "{}: the program ends the sentence", case.id);
     }
 }

@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use serde::Serialize;
 
+use super::arithmetic::Measured;
 use super::devices::Devices;
 use crate::cli::values::name_of;
 use crate::layout::Intersector;
@@ -19,6 +20,7 @@ pub(super) struct Report {
     pub(super) devices: Vec<String>,
     /// Name and driver of each adapter.
     pub(super) adapters: Vec<[String; 2]>,
+    pub(super) arithmetic: Vec<Measured>,
     pub(super) cases: Vec<CaseReport>,
 }
 
@@ -56,6 +58,7 @@ pub(super) struct Figure {
 pub(super) enum Limit {
     AtMost(f64),
     AtLeast(f64),
+    Near { expected: f64, within: f64 },
     Reported(bool),
 }
 
@@ -71,6 +74,7 @@ impl Report {
             intersector: name_of(intersector),
             devices: devices.list.iter().map(|device| device.name().to_owned()).collect(),
             adapters: devices.drivers.clone(),
+            arithmetic: devices.arithmetic.clone(),
             cases: Vec::new(),
         }
     }
@@ -111,6 +115,7 @@ impl From<Finding> for Figure {
         let bound = match finding.bound {
             Bound::AtMost(most) => Limit::AtMost(most),
             Bound::AtLeast(least) => Limit::AtLeast(least),
+            Bound::Near { expected, within } => Limit::Near { expected, within },
             Bound::Reported => Limit::Reported(true),
         };
         Self { what: finding.what, figure: finding.figure, bound, trials: finding.trials, holds }
