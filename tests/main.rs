@@ -6,3 +6,4 @@ mod fuzz;
 mod layering;
 mod lockstep;
 mod scenes;
+mod selftest;
