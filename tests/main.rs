@@ -2,6 +2,7 @@
 
 mod cli;
 mod closed_forms;
+mod effects;
 mod layering;
 mod lockstep;
 mod scenes;
