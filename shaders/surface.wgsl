@@ -43,7 +43,7 @@ fn resolve(ray: Ray, hit: Hit) -> Surface {
         hit.front,
     );
     // Smooth normals and texture coordinates.
-    if face.corners != NONE {
+    @if(smooth_normals) if face.corners != NONE {
         let c0 = corners[face.corners];
         let c1 = corners[face.corners + 1u];
         let c2 = corners[face.corners + 2u];

@@ -2,6 +2,7 @@
 
 mod cli;
 mod closed_forms;
+mod effects;
 mod fuzz;
 mod layering;
 mod lockstep;

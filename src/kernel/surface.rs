@@ -1,11 +1,11 @@
 //! Stop 4 of 7: surface. Twin of `shaders/surface.wgsl`.
 
-use crate::layout::Corner;
 use crate::layout::constants::{NONE, SPAWN_ROUNDOFFS};
+use crate::layout::{Corner, Effect};
 
 use super::bvh::{Hit, Ray};
 use super::math::{dot3, unit3};
-use super::{Real, Vec3, World};
+use super::{Real, Simulation, Vec3, World};
 
 /// A point on a face, as the ray that found it sees it.
 #[derive(Debug, Clone, Copy, Default)]
@@ -33,7 +33,7 @@ pub struct Surface<R> {
 }
 
 /// Everything that shading needs at a hit.
-pub fn resolve<R: Real>(world: &World, ray: &Ray<R>, hit: &Hit<R>) -> Surface<R> {
+pub fn resolve<R: Real>(world: &World<impl Simulation>, ray: &Ray<R>, hit: &Hit<R>) -> Surface<R> {
     let tri = &world.scene.triangles[hit.index as usize];
     let face = &world.scene.attributes[hit.id as usize];
     let (v0, v1, v2) = (Vec3::load(tri.v0), Vec3::load(tri.v1), Vec3::load(tri.v2));
@@ -60,7 +60,7 @@ pub fn resolve<R: Real>(world: &World, ray: &Ray<R>, hit: &Hit<R>) -> Surface<R>
         front: hit.front,
     };
     // Smooth normals and texture coordinates.
-    if face.corners != NONE {
+    if face.corners != NONE && world.simulates(Effect::SmoothNormals) {
         let c0 = &world.scene.corners[face.corners as usize];
         let c1 = &world.scene.corners[face.corners as usize + 1];
         let c2 = &world.scene.corners[face.corners as usize + 2];

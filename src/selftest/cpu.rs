@@ -7,7 +7,7 @@ use crate::cpu::CpuRenderer;
 use crate::film::{Frame, Renderer};
 use crate::kernel::material::fresnel;
 use crate::kernel::{Real, World};
-use crate::layout::{Intersector, Precision, Settings};
+use crate::layout::{EffectChoice, EffectSet, Intersector, Precision, Settings};
 
 /// The CPU in one precision, on all its cores.
 #[derive(Debug, Clone, Copy)]
@@ -24,7 +24,12 @@ impl CpuDevice {
     }
 
     fn world<'a>(&self, stage: &'a Stage) -> World<'a> {
-        World { scene: &stage.flat, view: &stage.view, intersector: self.intersector }
+        World {
+            scene: &stage.flat,
+            view: &stage.view,
+            intersector: self.intersector,
+            effects: EffectSet::ALL,
+        }
     }
 }
 
@@ -80,7 +85,12 @@ impl Device for CpuDevice {
     }
 
     fn picture(&mut self, stage: &Stage, settings: &Settings) -> Result<Frame, DeviceError> {
-        let settings = Settings { precision: self.precision, intersector: self.intersector, ..*settings };
+        let settings = Settings {
+            precision: self.precision,
+            intersector: self.intersector,
+            effects: EffectChoice::All,
+            ..*settings
+        };
         Ok(CpuRenderer::new(&stage.flat, 0)?.render(&stage.view_for(&settings), &settings, &())?)
     }
 }

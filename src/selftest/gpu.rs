@@ -4,7 +4,7 @@ use super::{Answered, Device, DeviceError, Escape, Leave, Left, Stage, Walk, Wal
 use crate::film::{Frame, Renderer};
 use crate::gpu::{AdapterReport, GpuError, GpuOptions, GpuRenderer, Prober, Source, Variant};
 use crate::layout::constants::{MAX_BVH_DEPTH, MAX_DEPTH};
-use crate::layout::{FlatScene, Float, Intersector, Precision, Settings, Tile};
+use crate::layout::{EffectChoice, FlatScene, Float, Intersector, Plan, Precision, Settings, Tile};
 use crate::scene::Scene;
 
 /// File and name of the entry points, and words of their records.
@@ -45,7 +45,7 @@ impl GpuDevice {
         let float = if adapter.strict_float { float } else { Float::Fast };
         // A stack that serves every scene.
         let settings = Settings { float, intersector, ..Settings::default() };
-        let variant = Variant::new(MAX_BVH_DEPTH, &settings);
+        let variant = Variant::new(MAX_BVH_DEPTH, &settings, &Plan::general(MAX_DEPTH));
         let name = column_name(adapter, float);
         Ok(Self { name, options: options.clone(), variant, sources, prober, renderer: None })
     }
@@ -179,8 +179,8 @@ impl Device for GpuDevice {
                 none.insert(GpuRenderer::with_sources(&scene, &self.options, self.sources)?)
             }
         };
-        // So does the stack of the deepest tree of rays.
-        let settings = Settings { depth: MAX_DEPTH, ..settings };
+        // So does the stack of the deepest tree of rays, and the code of all effects.
+        let settings = Settings { depth: MAX_DEPTH, effects: EffectChoice::All, ..settings };
         Ok(renderer.render(&view, &settings, &())?)
     }
 }
