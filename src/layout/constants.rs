@@ -49,6 +49,8 @@ shared! {
     BLOCK: u32 = 8;
     /// Invocations of one workgroup of a probe.
     PROBE_GROUP: u32 = 64;
+    /// Surfaces that a bent ray of the self-test may meet.
+    BEND_LIMIT: u32 = 16;
     /// Interfaces without effect that a ray, or interfaces of any kind that a shadow ray, may pass;
     /// one that met this many is stuck and is cut.
     MAX_PASSES: u32 = 4096;

@@ -10,7 +10,9 @@ mod device;
 mod stage;
 
 pub use case::{Bound, Case, Effort, Finding, Verdict};
-pub use device::{Answered, Device, DeviceError, Escape, Leave, Left, Walk, Walked};
+pub use device::{
+    Answered, Bend, Bent, Device, DeviceError, Ending, Escape, Leave, Left, Walk, Walked,
+};
 pub use stage::Stage;
 
 /// Every case, in the order of tables.
