@@ -51,6 +51,12 @@ shared! {
     PROBE_GROUP: u32 = 64;
     /// Surfaces that a bent ray of the self-test may meet.
     BEND_LIMIT: u32 = 16;
+    /// How a bent ray ended: it met nothing more.
+    BEND_FREE: u32 = 0;
+    /// It met as many surfaces as it may.
+    BEND_LIMITED: u32 = 1;
+    /// The last surface has no children.
+    BEND_ABSORBED: u32 = 2;
     /// Interfaces without effect that a ray, or interfaces of any kind that a shadow ray, may pass;
     /// one that met this many is stuck and is cut.
     MAX_PASSES: u32 = 4096;

@@ -27,6 +27,18 @@ pub enum Effort {
     Long,
 }
 
+impl Effort {
+    /// So many rays of which `short` are asked for in the short run.
+    #[must_use]
+    pub fn rays(self, short: usize) -> usize {
+        match self {
+            Self::Quick => short / 4,
+            Self::Short => short,
+            Self::Long => short * 10,
+        }
+    }
+}
+
 /// A figure with its bound.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {

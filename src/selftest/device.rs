@@ -1,5 +1,7 @@
 //! What a case may ask a device for.
 
+use glam::DVec3;
+
 use super::Stage;
 use crate::film::Frame;
 use crate::layout::constants::BEND_LIMIT;
@@ -158,6 +160,24 @@ pub struct Bend {
 impl Bend {
     /// Surfaces whose ids an answer holds.
     pub const LIMIT: u32 = BEND_LIMIT;
+
+    /// A ray from the air that is refracted wherever it can be.
+    #[must_use]
+    pub fn through(origin: DVec3, direction: DVec3) -> Self {
+        Self {
+            origin: origin.as_vec3().to_array(),
+            direction: direction.normalize().as_vec3().to_array(),
+            media: 0,
+            reflect: 0,
+            limit: Self::LIMIT,
+        }
+    }
+
+    /// A ray from the air that is reflected wherever it can be.
+    #[must_use]
+    pub fn back(origin: DVec3, direction: DVec3) -> Self {
+        Self { reflect: u32::MAX, ..Self::through(origin, direction) }
+    }
 }
 
 /// Where a bent ray went.

@@ -7,6 +7,7 @@
 
 mod case;
 mod device;
+mod paths;
 mod stage;
 
 pub use case::{Bound, Case, Effort, Finding, Verdict};
