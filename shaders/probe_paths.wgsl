@@ -1,6 +1,7 @@
 // Entry point: one bent path a record. Twin of src/selftest/paths.rs.
 
 import package::probe::{begin, put3, put_word, take3, take_word};
+import package::probe_rays::canary;
 import package::real::vec3r;
 import package::constants::{BEND_FREE, BEND_LIMIT, BEND_LIMITED, BEND_ABSORBED, NONE, PROBE_GROUP, RAY_PRIMARY};
 import package::material::scatter;
@@ -66,4 +67,5 @@ fn probe_bend(@builtin(global_invocation_id) id: vec3u) {
     put3(branch.origin);
     put3(branch.direction);
     put3(branch.weight);
+    put_word(canary(limit));
 }

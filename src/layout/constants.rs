@@ -95,6 +95,9 @@ shared! {
     /// its error in t grows as the distance to the plane along the ray does, so that a bound along the normal serves
     /// every angle.
     SPAWN_ROUNDOFFS: f64 = 16.0;
+    /// Points keep this many of those bounds, relative to the face's extent, off the edges: where two faces of a body
+    /// meet, a ray that leaves one of them must be on the right side of the other too.
+    EDGE_OFFSETS: f64 = 8.0;
 
     /// Weyl steps of the sample pattern, as fractions of 2^32: 1/φ₂ and 1/φ₂² of the plastic number φ₂
     /// (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences", R2).

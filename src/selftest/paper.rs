@@ -18,10 +18,9 @@ const REFRACTION_ROUNDOFFS: f64 = 20.0;
 /// By how many roundoffs one reflection turns a ray: twice the 4 of c, then 4 for c + c, the product, the sum and the
 /// rounded normal that it is multiplied with.
 const REFLECTION_ROUNDOFFS: f64 = 12.0;
-/// By how many roundoffs of the sizes of its corners a hit point, and the start of a ray there, are off: 7 for the point
-/// from barycentrics (Pharr, Jakob, Humphreys, 4th ed., section 6.8.5) and up to 16 for leaving it, doubled for the
-/// three axes together.
-const START_ROUNDOFFS: f64 = 48.0;
+/// By how many roundoffs of a face's extent a hit point, and the start of a ray there, are off: 7 for the point from
+/// barycentrics (Pharr, Jakob, Humphreys, 4th ed., section 6.8.5), and 16 for leaving it.
+const START_ROUNDOFFS: f64 = 24.0;
 
 /// The roundoff that shows in a device's answers: its own, or that of the f32 that it answers in.
 pub(super) fn unit(device: &dyn Device) -> f64 {
@@ -38,9 +37,10 @@ pub(super) fn reflection_error(reflections: u32, unit: f64) -> f64 {
     f64::from(reflections) * REFLECTION_ROUNDOFFS * unit
 }
 
-/// How far the start of a ray on a face may be off, for faces that reach `size` from the origin.
-pub(super) fn start_error(size: f64, unit: f64) -> f64 {
-    START_ROUNDOFFS * unit * size
+/// How far the start of a ray on a face may be off: `extent` is that of the face along all three axes, its edges and its
+/// distance from the origin together.
+pub(super) fn start_error(extent: f64, unit: f64) -> f64 {
+    START_ROUNDOFFS * unit * extent
 }
 
 /// A number as devices get it.

@@ -7,17 +7,16 @@ use crate::kernel::surface::{spawn_before, spawn_behind};
 use crate::kernel::whitted::{Branch, find_surface};
 use crate::kernel::{Real, Vec3, World};
 use crate::layout::constants::{
-    BEND_ABSORBED, BEND_FREE, BEND_LIMIT, BEND_LIMITED, NONE, RAY_PRIMARY,
+    BEND_ABSORBED, BEND_FREE, BEND_LIMIT, NONE, RAY_PRIMARY,
 };
 
-/// Words of an answer: how it ended, surfaces, reflections, media, ids, origin, direction, weight.
-const ANSWER: usize = 4 + BEND_LIMIT as usize + 9;
-/// Words of a record of the probe: its question, then in its place its answer.
-pub const BEND_STRIDE: usize = ANSWER;
+/// Words of a record up to the ids: how it ended, surfaces, reflections, media.
+const BEHIND_IDS: usize = 4 + BEND_LIMIT as usize;
+/// Words of a record: origin, direction and weight come behind the ids, then the canary.
+pub(super) const BEND_WORDS: usize = BEHIND_IDS + 10;
 
 /// Follow one path.
-#[must_use]
-pub fn bend<R: Real>(world: &World, ray: &Bend) -> Bent {
+pub(super) fn bend<R: Real>(world: &World, ray: &Bend) -> Bent {
     let mut branch = Branch {
         origin: Vec3::<R>::load(ray.origin),
         media: ray.media,
@@ -77,22 +76,17 @@ pub fn bend<R: Real>(world: &World, ray: &Bend) -> Bent {
 }
 
 impl Bend {
-    /// The record that the probe reads.
-    #[must_use]
-    pub fn to_words(&self) -> [u32; BEND_STRIDE] {
-        let mut words = [0; BEND_STRIDE];
-        words[..3].copy_from_slice(&self.origin.map(f32::to_bits));
-        words[3..6].copy_from_slice(&self.direction.map(f32::to_bits));
-        words[6..9].copy_from_slice(&[self.media, self.reflect, self.limit]);
-        words
+    /// Write the record that the probe reads.
+    pub(super) fn write(&self, words: &mut Vec<u32>) {
+        words.extend(self.origin.map(f32::to_bits));
+        words.extend(self.direction.map(f32::to_bits));
+        words.extend([self.media, self.reflect, self.limit]);
     }
 }
 
 impl Bent {
-    /// What the probe wrote.
-    #[must_use]
-    pub fn from_words(words: &[u32; BEND_STRIDE]) -> Self {
-        const BEHIND_IDS: usize = 4 + BEND_LIMIT as usize;
+    /// Read what the probe wrote.
+    pub(super) fn read(words: &[u32]) -> Self {
         let vector = |first: usize| std::array::from_fn(|axis| f32::from_bits(words[first + axis]));
         Self {
             end: match words[0] {

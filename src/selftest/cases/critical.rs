@@ -1,6 +1,6 @@
 //! Where total internal reflection sets in.
 
-use crate::selftest::paper::{ICE, WATER, greatest, narrow, reflectance, refract, unit};
+use crate::selftest::paper::{ICE, WATER, greatest, reflectance, unit};
 use crate::selftest::{Case, Device, DeviceError, Effort, Finding};
 
 /// T6.

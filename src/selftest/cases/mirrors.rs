@@ -58,8 +58,10 @@ fn c11(device: &mut dyn Device, effort: Effort) -> Result<Vec<Finding>, DeviceEr
 /// more, or the object itself. The count is exact: the object is as wide as many rays, and stands free.
 fn c12(device: &mut dyn Device, effort: Effort) -> Result<Vec<Finding>, DeviceError> {
     let mut findings = Vec::new();
-    // N, and where the object stands between the mirrors.
-    for (n, share) in [(3, 0.5), (4, 0.3), (5, 0.5), (6, 0.4), (8, 0.6), (12, 0.35)] {
+    // N, and where the object and the eye stand between the mirrors: so that no image hides another.
+    for (n, share, eye) in
+        [(3, 0.5, 0.55), (4, 0.3, 0.8), (5, 0.5, 0.55), (6, 0.4, 0.8), (8, 0.6, 0.7), (12, 0.35, 0.62)]
+    {
         let wedge = TAU / f64::from(n);
         let at = |share: f64, radius: f64| (DVec2::from_angle(wedge * share) * radius).extend(0.0);
         // The mirrors reach to the edge that they share, along z.
@@ -67,10 +69,10 @@ fn c12(device: &mut dyn Device, effort: Effort) -> Result<Vec<Finding>, DeviceEr
             let [near, far] = [DVec3::ZERO, at(share, 4.0)];
             body(quad([near - DVec3::Z, far - DVec3::Z, far + DVec3::Z, near + DVec3::Z]), 0, 0)
         };
-        let object = body(placed(centred(DVec3::new(0.04, 0.04, 1.0)), 1.0, at(share, 1.0)), 1, 0);
+        let object = body(placed(centred(DVec3::new(0.01, 0.01, 1.0)), 1.0, at(share, 1.0)), 1, 0);
         let materials = vec![mirror(), Material::black("object")];
         let stage = Stage::new(&Scene::of(materials, vec![wall(0.0), wall(1.0), object]))?;
-        let eye = at(if n % 2 == 0 { 0.7 } else { 0.55 }, 2.0);
+        let eye = at(eye, 2.0);
         let count = effort.rays(16384);
         let rays: Vec<Bend> = (0..count)
             .map(|k| {

@@ -32,7 +32,7 @@ const RAYS: usize = 512;
 /// point lies on a flat face, up to the rod's flatness nearer to the axis, and as far off as any start. So the sine of
 /// the angle is off by both, and the angle by that over the cosine.
 fn surface_error(cosine: f64, unit: f64) -> f64 {
-    (flatness(SIDES) + start_error(2.0, unit)) / cosine
+    (flatness(SIDES) + start_error(4.0, unit)) / cosine
 }
 
 /// A ray at height h enters at θ = asin h, is turned by 2(θ − θt) = δ, and its line passes the centre at h again: it
@@ -52,7 +52,7 @@ fn c7(device: &mut dyn Device, _: Effort) -> Result<Vec<Finding>, DeviceError> {
         let mut errors = Vec::new();
         for (&h, &found) in heights.iter().zip(&focus) {
             let deviation = 2.0 * (h.asin() - (h / n).asin());
-            let within = expected(h) * (bend / deviation + (flatness(SIDES) + start_error(2.0, unit)) / h);
+            let within = expected(h) * (bend / deviation + (flatness(SIDES) + start_error(4.0, unit)) / h);
             let what = format!("crossing of the axis from a height of {h}, {name}");
             findings.push(Finding::near(what, found, expected(h), within, 1));
             errors.push(within);

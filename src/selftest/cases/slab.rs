@@ -92,7 +92,7 @@ fn c5(device: &mut dyn Device, _: Effort) -> Result<Vec<Finding>, DeviceError> {
         let shift = (widen3(bent.origin) - origin).cross(direction).length();
         let expected = sin * (1.0 - cos / (n * n - sin * sin).sqrt());
         let unit = unit(device);
-        let within = 2.0 * start_error(2.0, unit) + 1.2 * refraction_error(1, cos, unit);
+        let within = 2.0 * start_error(13.0, unit) + 1.2 * refraction_error(1, cos, unit);
         findings.push(Finding::near(format!("shift by {name}"), shift, expected, within, 1));
         let turned = crate::selftest::paper::angle(direction, widen3(bent.direction));
         let what = format!("direction turned by {name}");
@@ -119,7 +119,7 @@ fn c6(device: &mut dyn Device, _: Effort) -> Result<Vec<Finding>, DeviceError> {
         let outside = refract(inside, 1.0 / narrow(n)).unwrap_or(f64::NAN);
         let expected = outside / inside / n;
         let unit = unit(device);
-        let within = 32.0 * (start_error(1.0, unit) + refraction_error(1, 1.0, unit)) + start_error(2.0, unit);
+        let within = 32.0 * (start_error(14.0, unit) + refraction_error(1, 1.0, unit));
         findings.push(Finding::near(format!("apparent depth, {name}"), depth, expected, within, 1));
     }
     Ok(findings)
@@ -133,7 +133,7 @@ fn c10(device: &mut dyn Device, _: Effort) -> Result<Vec<Finding>, DeviceError> 
         let (_, bent) = through_plate(device, ICE, degrees, sigma)?;
         let behind = refract(degrees.to_radians().cos(), ICE).unwrap_or(f64::NAN);
         let unit = unit(device);
-        let path = start_error(4.0, unit) / behind + refraction_error(1, 1.0, unit);
+        let path = 2.0 * start_error(13.0, unit) / behind + refraction_error(1, 1.0, unit);
         for (channel, weight) in ["0.35", "1", "4"].into_iter().zip(bent.weight).enumerate() {
             let (name, weight) = weight;
             let sigma = narrow(sigma[channel]);
