@@ -8,6 +8,7 @@ use crate::cpu::CpuError;
 use crate::film::{DifferenceError, EncodeError, LoadError, OutputError};
 use crate::gpu::GpuError;
 use crate::scene::{Diagnostic, SceneError};
+use crate::selftest::DeviceError;
 
 /// How a command that met no error ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,6 +59,16 @@ pub(super) enum CliError {
     Gpu(#[from] GpuError),
     #[error("cannot write the report as JSON: {0}")]
     Json(serde_json::Error),
+}
+
+impl From<DeviceError> for CliError {
+    fn from(error: DeviceError) -> Self {
+        match error {
+            DeviceError::Cpu(error) => Self::Cpu(error),
+            DeviceError::Gpu(error) => Self::Gpu(error),
+            DeviceError::Scene(error) => Self::Scene(error),
+        }
+    }
 }
 
 impl CliError {

@@ -10,7 +10,7 @@ use super::film::FilmBuffer;
 use super::job::Job;
 use super::pace::Pace;
 use super::pipeline::Compiled;
-use super::{AdapterReport, GpuError, GpuOptions, SOURCES, Variant, pipeline};
+use super::{AdapterReport, GpuError, GpuOptions, SOURCES, Source, Variant, pipeline};
 use crate::film::{Frame, Progress, RayCounts, Renderer, TraceTimes};
 use crate::layout::{FlatScene, Float, Settings, Tile, View};
 
@@ -20,7 +20,9 @@ const ENTRY: (&str, &str) = ("render", "render");
 /// A scene on an adapter.
 pub struct GpuRenderer {
     context: Context,
+    sources: &'static [Source<'static>],
     scene: SceneBuffers,
+    /// Of the deepest tree so far: its stack serves the others.
     bvh_depth: u32,
     /// What the upload took, until a frame has told it.
     upload: Duration,
@@ -35,11 +37,24 @@ impl GpuRenderer {
     /// [`GpuError::NoAdapter`], [`GpuError::TooLarge`] (checked before anything is uploaded),
     /// [`GpuError::Refused`], [`GpuError::OutOfMemory`], [`GpuError::DeviceLost`].
     pub fn new(scene: &FlatScene, options: &GpuOptions) -> Result<Self, GpuError> {
+        Self::with_sources(scene, options, SOURCES)
+    }
+
+    /// The same with other shader files than the program's own: for tests that plant faults in them.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_sources(
+        scene: &FlatScene,
+        options: &GpuOptions,
+        sources: &'static [Source<'static>],
+    ) -> Result<Self, GpuError> {
         let context = Context::new(options)?;
         let start = Instant::now();
         let buffers = SceneBuffers::new(&context, scene)?;
         Ok(Self {
             context,
+            sources,
             scene: buffers,
             bvh_depth: scene.bvh_depth,
             upload: start.elapsed(),
@@ -52,6 +67,18 @@ impl GpuRenderer {
     #[must_use]
     pub fn adapter(&self) -> &AdapterReport {
         &self.context.adapter
+    }
+
+    /// Put another scene in place of this one. What was compiled is kept, unless the new scene's tree is deeper.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`], [`GpuError::OutOfMemory`], [`GpuError::DeviceLost`].
+    pub fn show(&mut self, scene: &FlatScene) -> Result<(), GpuError> {
+        let start = Instant::now();
+        self.scene = SceneBuffers::new(&self.context, scene)?;
+        self.bvh_depth = self.bvh_depth.max(scene.bvh_depth);
+        self.upload = start.elapsed();
+        Ok(())
     }
 
     /// The variant for these settings: fast where the adapter cannot be strict.
@@ -97,7 +124,7 @@ impl GpuRenderer {
         if let Some(pipeline) = self.pipelines.get(variant) {
             return Ok((pipeline.clone(), false));
         }
-        let pipeline = pipeline::compile(&self.context, &self.scene.layout, SOURCES, ENTRY, variant)?;
+        let pipeline = pipeline::compile(&self.context, &self.scene.layout, self.sources, ENTRY, variant)?;
         self.pipelines.insert(*variant, pipeline.clone());
         Ok((pipeline, true))
     }

@@ -21,6 +21,7 @@ pub const SOURCES: &[Source<'static>] = sources! {
     "probe"
     "probe_paths"
     "probe_plain"
+    "probe_rays"
     "probe_scene"
     "real"
     "records"

@@ -8,7 +8,7 @@
 //! winning triangle is ever culled.
 
 use crate::layout::Triangle;
-use crate::layout::constants::{FAR, LEAST_DIRECTION, MAX_BVH_DEPTH, NONE, SLAB_PADDING};
+use crate::layout::constants::{FAR, LEAST_DIRECTION, MAX_BVH_DEPTH, NONE, ORIGIN_PADDING, SLAB_PADDING};
 
 use super::triangle::{Shear, intersect_triangle, shear_of};
 use super::{Real, Vec3, World};
@@ -61,7 +61,7 @@ pub fn make_ray<R: Real>(world: &World, origin: Vec3<R>, direction: Vec3<R>) -> 
     let to_lo = (origin - Vec3::load(world.view.scene_lo)).abs();
     let to_hi = (origin - Vec3::load(world.view.scene_hi)).abs();
     let reach = to_lo.x.greatest(to_hi.x) + to_lo.y.greatest(to_hi.y) + to_lo.z.greatest(to_hi.z);
-    let delta = Vec3::splat(reach * R::of(SLAB_PADDING));
+    let delta = origin.abs() * R::of(ORIGIN_PADDING) + Vec3::splat(reach * R::of(SLAB_PADDING));
     Ray {
         origin,
         direction,

@@ -89,6 +89,9 @@ shared! {
     /// Slabs are widened by this much (2^-19) of the distance to the farthest corner of the scene's box: more
     /// than the rounding of the slab and triangle tests, so that no box misses what its triangle hits.
     SLAB_PADDING: f64 = 1.907_348_632_812_5e-6;
+    /// And by this much (2^-22) of the origin's own coordinate on each axis: four roundoffs (two where the driver may
+    /// rewrite), so that the sum of origin and padding is not rounded back below the padding far away from (0, 0, 0).
+    ORIGIN_PADDING: f64 = 2.384_185_791_015_625e-7;
     /// Rays leave a surface along its normal by this many unit roundoffs of (1) the face's coordinates weighted by the
     /// hit's barycentrics: 7 bound the rounding of the hit point (Pharr, Jakob, Humphreys, 4th ed., section 6.8.5); and
     /// (2) the face's extent: what the next test of this very face subtracts, shears and weights; at a grazing angle

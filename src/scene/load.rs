@@ -45,6 +45,22 @@ impl Scene {
                 .into()),
         }
     }
+
+    /// Read a scene from text, as [`load`](Self::load) does from the `.toml` file at `path`: messages name it, and files
+    /// that the text names are relative to it.
+    ///
+    /// # Errors
+    /// As [`load`](Self::load).
+    ///
+    /// # Examples
+    /// ```
+    /// # use snellius::scene::Scene;
+    /// let text = "[[model]]\nshape = { sphere = { radius = 1 } }\nmaterial = 'glas'";
+    /// assert!(Scene::parse("ball.toml".as_ref(), text).unwrap_err().to_string().contains("glas"));
+    /// ```
+    pub fn parse(path: &Path, text: &str) -> Result<Self, SceneError> {
+        from_toml(&Source::new(path, text.to_owned()))
+    }
 }
 
 /// Read a scene file.

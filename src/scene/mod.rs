@@ -10,6 +10,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec2, DVec3};
 
 mod camera;
+mod code;
 mod color;
 mod default_view;
 mod diagnostic;

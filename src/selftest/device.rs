@@ -48,7 +48,8 @@ pub trait Device {
     /// As the device's.
     fn fresnel(&mut self, inputs: &[[f32; 2]]) -> Answered<Option<f32>>;
 
-    /// Trace a picture. Precision and float of the settings are the device's own.
+    /// Trace a picture by the stage's camera. Depth, cut-off, samples and auxiliary pictures are as the settings say;
+    /// precision, float and ray–triangle test are the device's own.
     ///
     /// # Errors
     /// As the device's.

@@ -6,9 +6,7 @@ use crate::kernel::media::{attenuation, current_medium};
 use crate::kernel::surface::{spawn_before, spawn_behind};
 use crate::kernel::whitted::{Branch, find_surface};
 use crate::kernel::{Real, Vec3, World};
-use crate::layout::constants::{
-    BEND_ABSORBED, BEND_FREE, BEND_LIMIT, NONE, RAY_PRIMARY,
-};
+use crate::layout::constants::{BEND_ABSORBED, BEND_FREE, BEND_LIMIT, NONE, RAY_PRIMARY};
 
 /// Words of a record up to the ids: how it ended, surfaces, reflections, media.
 const BEHIND_IDS: usize = 4 + BEND_LIMIT as usize;

@@ -7,8 +7,7 @@ use glam::{DVec2, DVec3};
 use crate::scene::{Background, Camera, Material, MaterialId, Mesh, Model, Normals, RenderDefaults};
 
 /// White light straight from above, none from the horizon and below.
-pub(super) const LIGHT_ABOVE: Background =
-    Background::Gradient { zenith: DVec3::ONE, horizon: DVec3::ZERO };
+pub(super) const LIGHT_ABOVE: Background = Background::Gradient { zenith: DVec3::ONE, horizon: DVec3::ZERO };
 /// White light from everywhere.
 pub(super) const WHITE: Background = Background::Color(DVec3::ONE);
 

@@ -15,6 +15,7 @@ const ALONE: &[(&str, &str)] = &[
     ("probe", "the tests hold its twin"),
     ("probe_paths", "src/selftest/paths.rs is its twin"),
     ("probe_plain", "the tests hold its twin"),
+    ("probe_rays", "src/selftest/rays.rs is its twin"),
     ("probe_scene", "the tests hold its twin"),
     ("records", "src/layout holds the records"),
     ("render", "the entry point: src/cpu is its twin"),

@@ -7,8 +7,8 @@ use crate::selftest::{Case, Device, DeviceError, Effort, Finding};
 pub(super) const T6: Case = Case {
     id: "T6",
     title: "at the critical angle",
-    claim: "Within 64 ULP of the critical angle reflectance is in [0, 1], turns total once, and is that of a cosine \
-            within 2 ULP (8 where the driver rewrites sums).",
+    claim: "within 64 ULP of the critical angle reflectance is in [0, 1], turns total once, and is that of a cosine \
+            within 2 ULP (8 where the driver rewrites sums)",
     run: t6,
 };
 
@@ -16,8 +16,8 @@ pub(super) const T6: Case = Case {
 pub(super) const C2: Case = Case {
     id: "C2",
     title: "critical angles",
-    claim: "Total reflection sets in at asin(1/n): 49.761° from ice to air, 48.607° from water to air (Snell's window), \
-            79.341° from water to ice.",
+    claim: "total reflection sets in at asin(1/n): 49.761° from ice to air, 48.607° from water to air (Snell's window), \
+            79.341° from water to ice",
     run: c2,
 };
 
@@ -70,8 +70,8 @@ impl Onset {
 
     /// The angle of the last total reflection, in degrees.
     fn angle(&self) -> f64 {
-        let total = self.cosines.iter().zip(&self.answers).filter(|(_, answer)| answer.is_none());
-        total.last().map_or(f64::NAN, |(&cosine, _)| f64::from(cosine).acos().to_degrees())
+        let mut total = self.cosines.iter().zip(&self.answers).filter(|(_, answer)| answer.is_none());
+        total.next_back().map_or(f64::NAN, |(&cosine, _)| f64::from(cosine).acos().to_degrees())
     }
 }
 
@@ -93,7 +93,13 @@ fn t6(device: &mut dyn Device, _: Effort) -> Result<Vec<Finding>, DeviceError> {
         let absurd = onset.absurd() as f64;
         findings.extend([
             Finding::at_most(format!("reflectances outside of [0, 1], {name}"), absurd, 0.0, trials),
-            Finding::near(format!("onsets of total reflection, {name}"), onset.turns() as f64, 1.0, 0.0, trials),
+            Finding::near(
+                format!("onsets of total reflection, {name}"),
+                onset.turns() as f64,
+                1.0,
+                0.0,
+                trials,
+            ),
             Finding::at_most(
                 format!("reflectance off that of any cosine within {ulps} ULP, {name}"),
                 onset.error(ulps),

@@ -11,8 +11,8 @@ use crate::selftest::{Bend, Case, Device, DeviceError, Effort, Finding, Stage};
 pub(super) const T7: Case = Case {
     id: "T7",
     title: "index one is invisible",
-    claim: "Matter of index 1 reflects exactly nothing at cosines down to 1e-7, bends no ray, and its picture is that of \
-            the empty scene, bit for bit.",
+    claim: "matter of index 1 reflects exactly nothing at cosines down to 1e-7, bends no ray, and its picture is that of \
+            the empty scene, bit for bit",
     run,
 };
 

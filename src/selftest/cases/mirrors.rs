@@ -15,7 +15,7 @@ use crate::selftest::{Bend, Bent, Case, Device, DeviceError, Effort, Ending, Fin
 pub(super) const C11: Case = Case {
     id: "C11",
     title: "corner cube",
-    claim: "Three mirrors at right angles send every ray back where it came from: d_out = −d_in.",
+    claim: "three mirrors at right angles send every ray back where it came from: d_out = −d_in",
     run: c11,
 };
 
@@ -23,7 +23,7 @@ pub(super) const C11: Case = Case {
 pub(super) const C12: Case = Case {
     id: "C12",
     title: "images in two mirrors",
-    claim: "Between two mirrors at 360°/N there are N−1 images of an object (N even, or the object on the bisector).",
+    claim: "between two mirrors at 360°/N there are N−1 images of an object (N even, or the object on the bisector)",
     run: c12,
 };
 

@@ -1,5 +1,6 @@
 //! The cases, a file each or a family.
 
+mod closed_meshes;
 mod critical;
 mod furnace;
 mod hollow_cube;
@@ -18,6 +19,8 @@ use super::Case;
 
 /// Every case, in the order of tables.
 pub const CASES: &[Case] = &[
+    closed_meshes::T1,
+    closed_meshes::T2,
     critical::T6,
     index_match::T7,
     reflectance::T8,

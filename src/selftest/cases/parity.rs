@@ -16,8 +16,8 @@ use crate::selftest::{
 pub(super) const T13: Case = Case {
     id: "T13",
     title: "media at edges and corners",
-    claim: "Rays at the edges and corners of nested cubes end in air; from an eye in air, ice and water, all rays out agree \
-            with the media found there.",
+    claim: "rays at the edges and corners of nested cubes end in air; from an eye in air, ice and water, all rays out agree \
+            with the media found there",
     run,
 };
 
@@ -93,12 +93,7 @@ fn from_inside(device: &mut dyn Device, stage: &Stage, count: usize) -> Result<V
         let mut random = Random::new(name);
         let origin = eye.as_vec3().to_array();
         let rays: Vec<Walk> = (0..count / 4)
-            .map(|_| Walk {
-                origin,
-                direction: random.direction().as_vec3().to_array(),
-                media,
-                limit: LIMIT,
-            })
+            .map(|_| Walk { origin, direction: random.direction().as_vec3().to_array(), media, limit: LIMIT })
             .collect();
         let walked = device.walk(stage, &rays)?;
         let astray = walked.iter().filter(|w| w.escape == Escape::Limit || w.media != 0).count();
@@ -109,7 +104,13 @@ fn from_inside(device: &mut dyn Device, stage: &Stage, count: usize) -> Result<V
             rays.len(),
         ));
         let found = f64::from(media.count_ones());
-        findings.push(Finding::near(format!("bodies around an eye in {name}"), found, f64::from(bodies), 0.0, 1));
+        findings.push(Finding::near(
+            format!("bodies around an eye in {name}"),
+            found,
+            f64::from(bodies),
+            0.0,
+            1,
+        ));
     }
     Ok(findings)
 }

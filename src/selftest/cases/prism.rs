@@ -11,8 +11,8 @@ use crate::selftest::{Bend, Case, Device, DeviceError, Effort, Ending, Finding, 
 pub(super) const C8: Case = Case {
     id: "C8",
     title: "minimum deviation of prisms",
-    claim: "Through two faces of ice at 60° light is turned by no less than 21.84° (the 22° halo), at 90° by no less than \
-            45.73°.",
+    claim: "through two faces of ice at 60° light is turned by no less than 21.84° (the 22° halo), at 90° by no less than \
+            45.73°",
     run,
 };
 
@@ -43,7 +43,8 @@ fn run(device: &mut dyn Device, _: Effort) -> Result<Vec<Finding>, DeviceError> 
             })
             .collect();
         let bent = device.bend(&stage, &rays)?;
-        let through = rays.iter().zip(&bent).filter(|(_, bent)| bent.end == Ending::Free && bent.surfaces == 2);
+        let through =
+            rays.iter().zip(&bent).filter(|(_, bent)| bent.end == Ending::Free && bent.surfaces == 2);
         let deviation = |(ray, bent): (&Bend, &crate::selftest::Bent)| {
             angle(widen3(ray.direction), widen3(bent.direction))
         };

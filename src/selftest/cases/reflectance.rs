@@ -7,7 +7,7 @@ use crate::selftest::{Case, Device, DeviceError, Effort, Finding};
 pub(super) const C1: Case = Case {
     id: "C1",
     title: "normal incidence",
-    claim: "R = ((n−1)/(n+1))²: 0.0180094 for ice, 0.0203732 for water, 7.573e-5 between both.",
+    claim: "R = ((n−1)/(n+1))²: 0.0180094 for ice, 0.0203732 for water, 7.573e-5 between both",
     run: c1,
 };
 
@@ -15,8 +15,8 @@ pub(super) const C1: Case = Case {
 pub(super) const C3: Case = Case {
     id: "C3",
     title: "Brewster's angle",
-    claim: "Where tan θ = n (52.643° for ice, 53.123° for water) one polarisation is not reflected at all, so that \
-            R = ½((n²−1)/(n²+1))².",
+    claim: "where tan θ = n (52.643° for ice, 53.123° for water) one polarisation is not reflected at all, so that \
+            R = ½((n²−1)/(n²+1))²",
     run: c3,
 };
 
@@ -58,7 +58,7 @@ fn c3(device: &mut dyn Device, _: Effort) -> Result<Vec<Finding>, DeviceError> {
 pub(super) const T8: Case = Case {
     id: "T8",
     title: "grazing reflectance",
-    claim: "For cosines c ≤ 1e-3 from air, abs(R − (1 − 2c(1+n²)/√(n²−1))) ≤ 25c² + 5e-7.",
+    claim: "for cosines c ≤ 1e-3 from air, abs(R − (1 − 2c(1+n²)/√(n²−1))) ≤ 25c² + 5e-7",
     run: t8,
 };
 

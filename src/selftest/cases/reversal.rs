@@ -12,7 +12,7 @@ use crate::selftest::{Bend, Bent, Case, Device, DeviceError, Effort, Ending, Fin
 pub(super) const T9: Case = Case {
     id: "T9",
     title: "reversed light",
-    claim: "R(c, η) = R(c_t, 1/η) to 1e-5; a path from its end meets the same faces in reverse.",
+    claim: "R(c, η) = R(c_t, 1/η) to 1e-5; a path from its end meets the same faces in reverse",
     run,
 };
 

@@ -11,7 +11,7 @@ use crate::selftest::{Bend, Bent, Case, Device, DeviceError, Effort, Ending, Fin
 pub(super) const C7: Case = Case {
     id: "C7",
     title: "ball lens",
-    claim: "Near the axis a ball focuses at nR/(2(n−1)) from its centre: 2.1129·R for ice, 2.0015·R for water.",
+    claim: "near the axis a ball focuses at nR/(2(n−1)) from its centre: 2.1129·R for ice, 2.0015·R for water",
     run: c7,
 };
 
@@ -19,7 +19,7 @@ pub(super) const C7: Case = Case {
 pub(super) const C9: Case = Case {
     id: "C9",
     title: "rainbow",
-    claim: "Light that a drop (n = 1.333) reflects once inside comes back at 42.078° at most.",
+    claim: "light that a drop (n = 1.333) reflects once inside comes back at 42.078° at most",
     run: c9,
 };
 
@@ -78,7 +78,8 @@ fn c9(device: &mut dyn Device, _: Effort) -> Result<Vec<Finding>, DeviceError> {
         })
         .collect();
     let bent = device.bend(&stage, &rays)?;
-    let back = bent.iter().filter(|bent| bent.end == Ending::Free && bent.surfaces == 3 && bent.reflected == 0b010);
+    let back =
+        bent.iter().filter(|bent| bent.end == Ending::Free && bent.surfaces == 3 && bent.reflected == 0b010);
     let bow = |bent: &Bent| angle(DVec3::NEG_X, widen3(bent.direction)).to_degrees();
     let greatest = back.clone().map(bow).fold(0.0, f64::max);
     let [before, behind] = [descartes.asin(), (descartes / WATER).asin()];

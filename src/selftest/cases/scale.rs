@@ -14,8 +14,8 @@ use crate::selftest::{Case, Device, DeviceError, Effort, Finding, Stage};
 pub(super) const T16: Case = Case {
     id: "T16",
     title: "scaled by powers of two",
-    claim: "A whole scene scaled by 2^k for k = ±30, its absorption and its falloff likewise, gives the same bits; where \
-            the driver rewrites sums, the same paths.",
+    claim: "a whole scene scaled by 2^k for k = ±30, its absorption and its falloff likewise, gives the same bits; where \
+            the driver rewrites sums, the same paths",
     run,
 };
 
@@ -64,7 +64,8 @@ fn scene(unit: f64) -> Scene {
         reflection: DVec3::splat(0.1),
         ..Material::black("table")
     };
-    let scaled = |model: Model| Model { world_from_object: DAffine3::from_scale(DVec3::splat(unit)), ..model };
+    let scaled =
+        |model: Model| Model { world_from_object: DAffine3::from_scale(DVec3::splat(unit)), ..model };
     let mut scene = Scene::of(
         vec![ice, water, table],
         vec![
@@ -73,7 +74,8 @@ fn scene(unit: f64) -> Scene {
             scaled(body(placed(centred(DVec3::new(8.0, 0.5, 8.0)), 1.0, DVec3::Y * -1.3), 2, 0)),
         ],
     );
-    let lamp = |position: DVec3, intensity: DVec3, falloff| Light { position: position * unit, intensity, falloff };
+    let lamp =
+        |position: DVec3, intensity: DVec3, falloff| Light { position: position * unit, intensity, falloff };
     scene.lights = vec![
         lamp(DVec3::new(3.0, 5.0, 2.0), DVec3::splat(0.6), Falloff::None),
         lamp(DVec3::new(-2.0, 3.0, 3.0), DVec3::splat(4.0) * unit * unit, Falloff::InverseSquare),

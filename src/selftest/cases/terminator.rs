@@ -14,8 +14,8 @@ use crate::selftest::{Bend, Bent, Case, CpuDevice, Device, DeviceError, Effort, 
 pub(super) const T19: Case = Case {
     id: "T19",
     title: "a smooth sphere of 8×8 faces",
-    claim: "At grazing light reflected rays leave the faces (n_g·r > 0) and meet the sphere no more; no point that its \
-            shading normal turns to the lamp is black.",
+    claim: "at grazing light reflected rays leave the faces (n_g·r > 0) and meet the sphere no more; no point that its \
+            shading normal turns to the lamp is black",
     run,
 };
 
@@ -34,7 +34,10 @@ fn run(device: &mut dyn Device, effort: Effort) -> Result<Vec<Finding>, DeviceEr
 /// convex body outwards meets no other. In the plane of the face itself, n_g·r = 0, rounding decides: two roundoffs for
 /// each of the five operations of n_g·r are allowed below 0.
 fn reflections(device: &mut dyn Device, count: usize) -> Result<Vec<Finding>, DeviceError> {
-    let stage = Stage::new(&Scene::of(vec![Material::clear("ice", ICE)], vec![smooth_body(round(sphere(CIRCLES)), 0, 0)]))?;
+    let stage = Stage::new(&Scene::of(
+        vec![Material::clear("ice", ICE)],
+        vec![smooth_body(round(sphere(CIRCLES)), 0, 0)],
+    ))?;
     let mut random = Random::new("grazing");
     let rays: Vec<Bend> = (0..count)
         .map(|_| {
