@@ -104,7 +104,7 @@ pub(super) fn compile(
 fn module(context: &Context, shader: &Shader, variant: &Variant) -> Result<wgpu::ShaderModule, GpuError> {
     match variant.float {
         Float::Strict => {
-            let words = write_spirv(shader, variant)?;
+            let words = write_spirv(shader, variant, &context.adapter.promises)?;
             let entry_points: Vec<_> = shader.module.entry_points.iter().map(entry_point).collect();
             let descriptor = wgpu::ShaderModuleDescriptorPassthrough {
                 label: Some("strict"),

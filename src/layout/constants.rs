@@ -49,6 +49,14 @@ shared! {
     BLOCK: u32 = 8;
     /// Invocations of one workgroup of a probe.
     PROBE_GROUP: u32 = 64;
+    /// Surfaces that a bent ray of the self-test may meet.
+    BEND_LIMIT: u32 = 16;
+    /// How a bent ray ended: it met nothing more.
+    BEND_FREE: u32 = 0;
+    /// It met as many surfaces as it may.
+    BEND_LIMITED: u32 = 1;
+    /// The last surface has no children.
+    BEND_ABSORBED: u32 = 2;
     /// Interfaces without effect that a ray, or interfaces of any kind that a shadow ray, may pass;
     /// one that met this many is stuck and is cut.
     MAX_PASSES: u32 = 4096;
@@ -92,6 +100,9 @@ shared! {
     /// its error in t grows as the distance to the plane along the ray does, so that a bound along the normal serves
     /// every angle.
     SPAWN_ROUNDOFFS: f64 = 16.0;
+    /// Points keep this many of those bounds, relative to the face's extent, off the edges: where two faces of a body
+    /// meet, a ray that leaves one of them must be on the right side of the other too.
+    EDGE_OFFSETS: f64 = 8.0;
 
     /// Weyl steps of the sample pattern, as fractions of 2^32: 1/φ₂ and 1/φ₂² of the plastic number φ₂
     /// (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences", R2).

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::{Answered, Device, DeviceError, Leave, Left, Stage, Walk, Walked, rays};
+use super::{Answered, Bend, Bent, Device, DeviceError, Leave, Left, Stage, Walk, Walked, paths, rays};
 use crate::cpu::CpuRenderer;
 use crate::film::{Frame, Renderer};
 use crate::kernel::material::fresnel;
@@ -74,6 +74,14 @@ impl Device for CpuDevice {
             Precision::F64 => {
                 rays.par_iter().map(|ray| rays::leave::<f64>(&world, place(ray), ray)).collect()
             }
+        })
+    }
+
+    fn bend(&mut self, stage: &Stage, rays: &[Bend]) -> Answered<Bent> {
+        let world = self.world(stage);
+        Ok(match self.precision {
+            Precision::F32 => rays.par_iter().map(|ray| paths::bend::<f32>(&world, ray)).collect(),
+            Precision::F64 => rays.par_iter().map(|ray| paths::bend::<f64>(&world, ray)).collect(),
         })
     }
 

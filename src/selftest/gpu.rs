@@ -1,6 +1,7 @@
 //! A Vulkan adapter as a device of the self-test.
 
-use super::{Answered, Device, DeviceError, Escape, Leave, Left, Stage, Walk, Walked};
+use super::paths::BEND_WORDS;
+use super::{Answered, Bend, Bent, Device, DeviceError, Escape, Leave, Left, Stage, Walk, Walked};
 use crate::film::{Frame, Renderer};
 use crate::gpu::{AdapterReport, GpuError, GpuOptions, GpuRenderer, Prober, Source, Variant};
 use crate::layout::constants::{MAX_BVH_DEPTH, MAX_DEPTH};
@@ -10,6 +11,7 @@ use crate::scene::Scene;
 /// File and name of the entry points, and words of their records.
 const WALK: ((&str, &str), usize) = (("probe_rays", "probe_walk"), 11);
 const LEAVE: ((&str, &str), usize) = (("probe_rays", "probe_leave"), 12);
+const BEND: ((&str, &str), usize) = (("probe_paths", "probe_bend"), BEND_WORDS);
 const FRESNEL: ((&str, &str), usize) = (("probe_plain", "probe_fresnel"), 3);
 /// Records that are on the adapter at a time: tens of megabytes.
 const BATCH: usize = 1 << 20;
@@ -149,6 +151,18 @@ impl Device for GpuDevice {
                 met: words[3],
                 distance: f32::from_bits(words[4]),
             });
+            Ok(())
+        })?;
+        Ok(answers)
+    }
+
+    fn bend(&mut self, stage: &Stage, rays: &[Bend]) -> Answered<Bent> {
+        self.prober.show(&stage.flat, &stage.view)?;
+        let mut answers = Vec::with_capacity(rays.len());
+        let name = self.adapter().name.clone();
+        self.ask(BEND, rays, Bend::write, |ray, words| {
+            Self::check_canary(&name, words[BEND_WORDS - 1], ray.limit)?;
+            answers.push(Bent::read(words));
             Ok(())
         })?;
         Ok(answers)

@@ -1,6 +1,6 @@
 //! Every variant of the shaders assembles and validates, with no device at hand.
 
-use snellius::gpu::{GpuError, SOURCES, Variant, assemble, write_spirv};
+use snellius::gpu::{GpuError, Promises, SOURCES, Variant, assemble, write_spirv};
 use snellius::layout::{EffectSet, Float, Intersector, Lights, Precision};
 
 use crate::effects::covering::covering;
@@ -35,7 +35,7 @@ fn every_variant_validates_and_is_written_as_spirv() {
         let shader = assemble(SOURCES, "render", "render", &variant)
             .unwrap_or_else(|error| panic!("{variant:?}: {error}"));
         for float in [Float::Strict, Float::Fast] {
-            let words = write_spirv(&shader, &Variant { float, ..variant });
+            let words = write_spirv(&shader, &Variant { float, ..variant }, &Promises::default());
             assert!(words.is_ok_and(|words| words.len() > 1000), "{variant:?}");
         }
     }

@@ -62,6 +62,7 @@ const COVERED: &[(&str, &str)] = &[
     ("log2_parts", "power"),
     ("nearer", "intersect"),
     ("note_path", "the pictures"),
+    ("off_edge", "resolve"),
     ("permute", "shear_of"),
     ("power_f32", "power"),
     ("scale2", "exp_neg"),
