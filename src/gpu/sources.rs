@@ -20,6 +20,7 @@ pub const SOURCES: &[Source<'static>] = sources! {
     "media"
     "probe"
     "probe_arithmetic"
+    "probe_paths"
     "probe_plain"
     "probe_rays"
     "probe_scene"

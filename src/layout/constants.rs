@@ -49,6 +49,14 @@ shared! {
     BLOCK: u32 = 8;
     /// Invocations of one workgroup of a probe.
     PROBE_GROUP: u32 = 64;
+    /// Surfaces that a bent ray of the self-test may meet.
+    BEND_LIMIT: u32 = 16;
+    /// How a bent ray ended: it met nothing more.
+    BEND_FREE: u32 = 0;
+    /// It met as many surfaces as it may.
+    BEND_LIMITED: u32 = 1;
+    /// The last surface has no children.
+    BEND_ABSORBED: u32 = 2;
     /// Interfaces without effect that a ray, or interfaces of any kind that a shadow ray, may pass;
     /// one that met this many is stuck and is cut.
     MAX_PASSES: u32 = 4096;
@@ -68,6 +76,8 @@ shared! {
     RAY_REFRACTION: u32 = 2;
     /// Index of shadow rays in counts by kind.
     RAY_SHADOW: u32 = 3;
+    /// Material index of the air.
+    AIR: u32 = 0;
     /// Marks an absent index.
     NONE: u32 = u32::MAX;
     /// Flag in [`Attribute::other`](super::Attribute::other): the second body's outside is on the other side.
@@ -84,12 +94,15 @@ shared! {
     /// And by this much (2^-22) of the origin's own coordinate on each axis: four roundoffs (two where the driver may
     /// rewrite), so that the sum of origin and padding is not rounded back below the padding far away from (0, 0, 0).
     ORIGIN_PADDING: f64 = 2.384_185_791_015_625e-7;
-    /// Rays leave a surface along its normal by this many unit roundoffs of (1) the face's coordinates weighted by the
-    /// hit's barycentrics: 7 bound the rounding of the hit point (Pharr, Jakob, Humphreys, 4th ed., section 6.8.5); and
-    /// (2) the face's extent: what the next test of this very face subtracts, shears and weights; at a grazing angle
-    /// its error in t grows as the distance to the plane along the ray does, so that a bound along the normal serves
-    /// every angle.
-    SPAWN_ROUNDOFFS: f64 = 16.0;
+    /// A ray that leaves a face never meets that face again, at any angle, because it is told which one it is. It starts
+    /// off its plane all the same, so that the faces beside it and upon it lie on the right side: by this many unit
+    /// roundoffs of the face's coordinates, weighted by the hit's barycentrics, of which 7 bound the rounding of the hit
+    /// point (Pharr, Jakob, Humphreys, 4th ed., section 6.8.5), and half as many of the face's greatest extent: what the
+    /// test of another face in the same plane subtracts and shears.
+    SPAWN_ROUNDOFFS: f64 = 8.0;
+    /// Points keep this many of those bounds, relative to the face's extent, off the edges: where two faces of a body
+    /// meet, a ray that leaves one of them must be on the right side of the other too.
+    EDGE_OFFSETS: f64 = 8.0;
 
     /// Weyl steps of the sample pattern, as fractions of 2^32: 1/φ₂ and 1/φ₂² of the plastic number φ₂
     /// (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences", R2).

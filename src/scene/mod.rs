@@ -20,6 +20,7 @@ mod documentation;
 mod error;
 mod fault;
 mod illumination;
+mod limits;
 mod load;
 mod material;
 mod model;
@@ -39,6 +40,7 @@ mod triple;
 pub use color::linear_from_srgb8;
 pub use diagnostic::{Diagnostic, Location, Severity};
 pub use error::SceneError;
+pub use limits::Limits;
 
 /// A validated scene: every number finite and in range, every file read and decoded.
 #[derive(Debug, Clone)]

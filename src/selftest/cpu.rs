@@ -2,12 +2,12 @@
 
 use rayon::prelude::*;
 
-use super::{Answered, Device, DeviceError, Leave, Left, Stage, Walk, Walked, rays};
+use super::{Answered, Bend, Bent, Device, DeviceError, Leave, Left, Stage, Walk, Walked, paths, rays};
 use crate::cpu::CpuRenderer;
 use crate::film::{Frame, Renderer};
 use crate::kernel::material::fresnel;
 use crate::kernel::{Real, World};
-use crate::layout::{Intersector, Precision, Settings};
+use crate::layout::{EffectChoice, EffectSet, Intersector, Precision, Settings};
 
 /// The CPU in one precision, on all its cores.
 #[derive(Debug, Clone, Copy)]
@@ -24,7 +24,12 @@ impl CpuDevice {
     }
 
     fn world<'a>(&self, stage: &'a Stage) -> World<'a> {
-        World { scene: &stage.flat, view: &stage.view, intersector: self.intersector }
+        World {
+            scene: &stage.flat,
+            view: &stage.view,
+            intersector: self.intersector,
+            effects: EffectSet::ALL,
+        }
     }
 }
 
@@ -72,6 +77,14 @@ impl Device for CpuDevice {
         })
     }
 
+    fn bend(&mut self, stage: &Stage, rays: &[Bend]) -> Answered<Bent> {
+        let world = self.world(stage);
+        Ok(match self.precision {
+            Precision::F32 => rays.par_iter().map(|ray| paths::bend::<f32>(&world, ray)).collect(),
+            Precision::F64 => rays.par_iter().map(|ray| paths::bend::<f64>(&world, ray)).collect(),
+        })
+    }
+
     fn fresnel(&mut self, inputs: &[[f32; 2]]) -> Answered<Option<f32>> {
         Ok(match self.precision {
             Precision::F32 => inputs.iter().map(|&input| reflectance::<f32>(input)).collect(),
@@ -80,7 +93,12 @@ impl Device for CpuDevice {
     }
 
     fn picture(&mut self, stage: &Stage, settings: &Settings) -> Result<Frame, DeviceError> {
-        let settings = Settings { precision: self.precision, intersector: self.intersector, ..*settings };
+        let settings = Settings {
+            precision: self.precision,
+            intersector: self.intersector,
+            effects: EffectChoice::All,
+            ..*settings
+        };
         Ok(CpuRenderer::new(&stage.flat, 0)?.render(&stage.view_for(&settings), &settings, &())?)
     }
 }

@@ -1,15 +1,17 @@
 //! A Vulkan adapter as a device of the self-test.
 
-use super::{Answered, Device, DeviceError, Escape, Leave, Left, Stage, Walk, Walked};
+use super::paths::BEND_WORDS;
+use super::{Answered, Bend, Bent, Device, DeviceError, Escape, Leave, Left, Stage, Walk, Walked};
 use crate::film::{Frame, Renderer};
 use crate::gpu::{AdapterReport, GpuError, GpuOptions, GpuRenderer, Prober, Source, Variant};
 use crate::layout::constants::{MAX_BVH_DEPTH, MAX_DEPTH};
-use crate::layout::{FlatScene, Float, Intersector, Precision, Settings, Tile};
+use crate::layout::{EffectChoice, FlatScene, Float, Intersector, Plan, Precision, Settings, Tile};
 use crate::scene::Scene;
 
 /// File and name of the entry points, and words of their records.
 const WALK: ((&str, &str), usize) = (("probe_rays", "probe_walk"), 11);
 const LEAVE: ((&str, &str), usize) = (("probe_rays", "probe_leave"), 12);
+const BEND: ((&str, &str), usize) = (("probe_paths", "probe_bend"), BEND_WORDS);
 const FRESNEL: ((&str, &str), usize) = (("probe_plain", "probe_fresnel"), 3);
 /// Records that are on the adapter at a time: tens of megabytes.
 const BATCH: usize = 1 << 20;
@@ -45,7 +47,7 @@ impl GpuDevice {
         let float = if adapter.strict_float { float } else { Float::Fast };
         // A stack that serves every scene.
         let settings = Settings { float, intersector, ..Settings::default() };
-        let variant = Variant::new(MAX_BVH_DEPTH, &settings);
+        let variant = Variant::new(MAX_BVH_DEPTH, &settings, &Plan::general(MAX_DEPTH));
         let name = column_name(adapter, float);
         Ok(Self { name, options: options.clone(), variant, sources, prober, renderer: None })
     }
@@ -167,6 +169,18 @@ impl Device for GpuDevice {
         Ok(answers)
     }
 
+    fn bend(&mut self, stage: &Stage, rays: &[Bend]) -> Answered<Bent> {
+        self.prober.show(&stage.flat, &stage.view)?;
+        let mut answers = Vec::with_capacity(rays.len());
+        let name = self.adapter().name.clone();
+        self.ask(BEND, rays, Bend::write, |ray, words| {
+            Self::check_canary(&name, words[BEND_WORDS - 1], ray.limit)?;
+            answers.push(Bent::read(words));
+            Ok(())
+        })?;
+        Ok(answers)
+    }
+
     fn fresnel(&mut self, inputs: &[[f32; 2]]) -> Answered<Option<f32>> {
         let mut answers = Vec::with_capacity(inputs.len());
         let words_of = |input: &[f32; 2], words: &mut Vec<u32>| words.extend(input.map(f32::to_bits));
@@ -192,8 +206,8 @@ impl Device for GpuDevice {
                 none.insert(GpuRenderer::with_sources(&scene, &self.options, self.sources)?)
             }
         };
-        // So does the stack of the deepest tree of rays.
-        let settings = Settings { depth: MAX_DEPTH, ..settings };
+        // So does the stack of the deepest tree of rays, and the code of all effects.
+        let settings = Settings { depth: MAX_DEPTH, effects: EffectChoice::All, ..settings };
         Ok(renderer.render(&view, &settings, &())?)
     }
 }

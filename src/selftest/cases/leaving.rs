@@ -1,7 +1,8 @@
 //! T4: what a ray leaves, it does not meet again.
 //!
-//! The bound is 0: the origin of the leaving ray is off the face by more than rounding may put the hit point off it, and the
-//! next test of this very face off the truth (see `SPAWN_ROUNDOFFS`). Directions go away from the exact face by an angle of at
+//! The bound is 0: a straight ray does not return to a plane, so a face that is left is not tested again, whatever rounding
+//! would say of it. An offset alone cannot do it: the test of a triangle a million times as long as high errs by more than
+//! the triangle's height. Directions go away from the exact face by an angle of at
 //! least 1e-6: nearer, the rounded direction itself may point into it.
 
 use glam::DVec3;

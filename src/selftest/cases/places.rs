@@ -73,7 +73,7 @@ fn error(
     let model = Model::of("ball", mesh, MaterialId(0));
     let stage = Stage::new(&Scene::of(vec![Material::black("paper")], vec![model]))?;
     let mut random = Random::new("places");
-    let rays: Vec<_> = (0..rays).map(|_| towards(place, axis, &mut random)).collect();
+    let rays: Vec<_> = (0..rays).map(|_| towards(place, &stage, axis, &mut random)).collect();
     let judged = CpuDevice::new(Precision::F64, Intersector::Watertight).walk(&stage, &rays)?;
     let (mut worst, mut met) = (0.0f64, 0);
     for (found, judge) in device.walk(&stage, &rays)?.iter().zip(&judged) {
@@ -86,11 +86,14 @@ fn error(
     Ok((worst, met))
 }
 
-/// A ray at a point within the ball.
-fn towards(place: DVec3, axis: usize, random: &mut Random) -> Walk {
-    let from = turned(random.direction(), axis);
-    let aim = place + turned(random.direction(), axis) * 0.5;
-    let origin = (place + from * DISTANCE).as_vec3();
+/// A ray at the middle of a face: near an edge points are moved off it, which is no error (`EDGE_OFFSETS`).
+fn towards(place: DVec3, stage: &Stage, axis: usize, random: &mut Random) -> Walk {
+    let triangles = &stage.flat.triangles;
+    let triangle = &triangles[random.below(triangles.len() as u32) as usize];
+    let corners = [triangle.v0, triangle.v1, triangle.v2].map(|corner| glam::Vec3::from(corner).as_dvec3());
+    let aim = (corners[0] + corners[1] + corners[2]) / 3.0;
+    let from = (aim - place).normalize_or(DVec3::X) + turned(random.direction(), axis) * 0.3;
+    let origin = (aim + from * DISTANCE).as_vec3();
     let direction = (aim - origin.as_dvec3()).normalize();
     Walk { origin: origin.to_array(), direction: direction.as_vec3().to_array(), media: 0, limit: 1 }
 }

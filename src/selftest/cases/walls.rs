@@ -1,9 +1,9 @@
 //! T5: thin walls have two faces.
 //!
-//! A ray that crosses a face starts behind it, off by what `SPAWN_ROUNDOFFS` says; a wall that is thinner is jumped over. With
-//! p a point of the wall of half-width 1 at distance 1 from the origin, the offset is at most 16 roundoffs of |p|·|n| + extent,
-//! below 16·(√3 + 8): walls down to 512 roundoffs are resolved with room for the rounding of their own corners. That is
-//! 2^-15 in f32, 2^-14 where the driver may rewrite, and all of them in f64.
+//! A ray that crosses a face starts behind it, off by 8 roundoffs of the point and 4 of the face's extent
+//! (`SPAWN_ROUNDOFFS`); a wall that is thinner is jumped over. On the wall of half-width 1 at
+//! distance 1 from the origin |p|·|n| is at most 1.8 and the extent at most 5: 35 roundoffs. Twice that, 64 as a power of two,
+//! leaves room for the rounding of corners and origin: 2^-18 in f32, 2^-17 where the driver may rewrite, and all walls in f64.
 
 use glam::{DMat3, DVec3};
 
@@ -21,7 +21,7 @@ pub(super) const T5: Case = Case {
 /// Thinnest wall: 2^-22. Thinner ones are no walls: their corners are rounded to f32, whose unit there is 2^-23.
 const THINNEST: i32 = 22;
 /// Walls of so many roundoffs are resolved.
-const RESOLVABLE: f64 = 512.0;
+const RESOLVABLE: f64 = 64.0;
 /// Most faces that a ray may cross.
 const LIMIT: u32 = 8;
 
