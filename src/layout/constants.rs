@@ -100,9 +100,13 @@ shared! {
     /// its error in t grows as the distance to the plane along the ray does, so that a bound along the normal serves
     /// every angle.
     SPAWN_ROUNDOFFS: f64 = 16.0;
-    /// Points keep this many of those bounds, relative to the face's extent, off the edges: where two faces of a body
-    /// meet, a ray that leaves one of them must be on the right side of the other too.
-    EDGE_OFFSETS: f64 = 8.0;
+    /// Points keep off the edges of their face: each corner counts for this many unit roundoffs at least, times one and
+    /// the point's coordinates over the face's extent. Where two faces of a body meet, a ray that leaves one of them must
+    /// be on the right side of the other too, or it never meets it and the body is never left. 23 bound the rounding of
+    /// where it starts, as above; the rest is for faces of less height than extent.
+    EDGE_ROUNDOFFS: f64 = 128.0;
+    /// But no corner counts for more: far from the origin, where coordinates are coarser than faces.
+    MOST_EDGE_WEIGHT: f64 = 0.125;
 
     /// Weyl steps of the sample pattern, as fractions of 2^32: 1/φ₂ and 1/φ₂² of the plastic number φ₂
     /// (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences", R2).

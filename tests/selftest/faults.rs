@@ -79,7 +79,7 @@ const FAULTS: &[Fault] = &[
     Fault {
         case: "T13",
         what: "points that may lie on edges",
-        change: ("surface", "EDGE_OFFSETS * offset", "0.0 * offset"),
+        change: ("surface", "(EDGE_ROUNDOFFS * ROUNDOFF)", "0.0"),
     },
     Fault {
         case: "T16",
@@ -156,6 +156,11 @@ const FAULTS: &[Fault] = &[
         case: "C13",
         what: "a cut-off that cuts what is just bright enough",
         change: ("whitted", "max3(branch.weight) >= real", "max3(branch.weight) > real"),
+    },
+    Fault {
+        case: "S1",
+        what: "a number that is off by one ULP",
+        change: ("material", "let k = (c * sum - 1.0)", "let k = (c * sum - 1.0000001)"),
     },
 ];
 

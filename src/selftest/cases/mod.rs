@@ -13,6 +13,7 @@ mod reversal;
 mod rod;
 mod scale;
 mod slab;
+mod strict;
 mod terminator;
 
 use super::Case;
@@ -44,4 +45,5 @@ pub const CASES: &[Case] = &[
     mirrors::C11,
     mirrors::C12,
     hollow_cube::C13,
+    strict::S1,
 ];
