@@ -1,4 +1,4 @@
-// Entry points: functions that look at the scene, each over many inputs. Twins in tests/lockstep/probes/scene.rs.
+// Entry points: functions that look at the scene, each over many inputs. Twins in src/selftest/lockstep/scene.rs.
 
 import package::probe::{begin, put, put3, put_flag, put_word, take, take3, take_word};
 import package::real::{real, vec3r};

@@ -4,7 +4,7 @@ import package::real::{greatest, least, real, vec3r};
 import package::math::{dot3, max3, unit3};
 import package::bvh::{Hit, Ray};
 import package::bindings::{attributes, corners, triangles};
-import package::constants::{EDGE_OFFSETS, NONE, ROUNDOFF, SPAWN_ROUNDOFFS};
+import package::constants::{EDGE_ROUNDOFFS, MOST_EDGE_WEIGHT, NONE, ROUNDOFF, SPAWN_ROUNDOFFS};
 
 // A point on a face, as the ray that found it sees it.
 struct Surface {
@@ -39,10 +39,12 @@ fn resolve(ray: Ray, hit: Hit) -> Surface {
     let span = max3(extent);
     let reach = dot3(abs(face_normal), size) + span * 0.5;
     let offset = reach * (SPAWN_ROUNDOFFS * ROUNDOFF);
-    // At most so much that the point stays on a face that is small for its place.
-    let weight = least(EDGE_OFFSETS * offset / span, 0.25);
-    let point = weighted + off_edge(weighted, v0, b0, weight) + off_edge(weighted, v1, hit.b1, weight)
-        + off_edge(weighted, v2, hit.b2, weight);
+    // Off the edges, so that a leaving ray is on the right side of the next face as well.
+    let extents = extent.x + extent.y + extent.z;
+    let spread = (size.x + size.y + size.z + extents) / extents;
+    let margin = least(spread * (EDGE_ROUNDOFFS * ROUNDOFF), MOST_EDGE_WEIGHT);
+    let point = weighted + off_edge(weighted, v0, b0, margin) + off_edge(weighted, v1, hit.b1, margin)
+        + off_edge(weighted, v2, hit.b2, margin);
     var surface = Surface(
         point, offset, face_normal, face_normal, point, array<real, 2>(0.0, 0.0), face.material, face.body, hit.id,
         hit.front,
@@ -68,9 +70,9 @@ fn resolve(ray: Ray, hit: Hit) -> Surface {
 }
 
 // What moves a point that lies on the edge opposite a corner, or nearly so, towards that corner, until the corner's
-// weight is `least`; nothing for others.
-fn off_edge(point: vec3r, corner: vec3r, weight: real, least: real) -> vec3r {
-    return (corner - point) * greatest(least - weight, 0.0);
+// weight is `margin`; nothing for others.
+fn off_edge(point: vec3r, corner: vec3r, weight: real, margin: real) -> vec3r {
+    return (corner - point) * greatest(margin - weight, 0.0);
 }
 
 // A corner's shading normal on the ray's side.

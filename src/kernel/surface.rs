@@ -1,6 +1,6 @@
 //! Stop 4 of 7: surface. Twin of `shaders/surface.wgsl`.
 
-use crate::layout::constants::{EDGE_OFFSETS, NONE, SPAWN_ROUNDOFFS};
+use crate::layout::constants::{EDGE_ROUNDOFFS, MOST_EDGE_WEIGHT, NONE, SPAWN_ROUNDOFFS};
 use crate::layout::{Corner, Effect};
 
 use super::bvh::{Hit, Ray};
@@ -48,12 +48,14 @@ pub fn resolve<R: Real>(world: &World<impl Simulation>, ray: &Ray<R>, hit: &Hit<
     let span = max3(extent);
     let reach = dot3(face_normal.abs(), size) + span * R::of(0.5);
     let offset = reach * (R::of(SPAWN_ROUNDOFFS) * R::of(R::ROUNDOFF));
-    // At most so much that the point stays on a face that is small for its place.
-    let weight = (R::of(EDGE_OFFSETS) * offset / span).least(R::of(0.25));
+    // Off the edges, so that a leaving ray is on the right side of the next face as well.
+    let extents = extent.x + extent.y + extent.z;
+    let spread = (size.x + size.y + size.z + extents) / extents;
+    let margin = (spread * (R::of(EDGE_ROUNDOFFS) * R::of(R::ROUNDOFF))).least(R::of(MOST_EDGE_WEIGHT));
     let point = weighted
-        + off_edge(weighted, v0, b0, weight)
-        + off_edge(weighted, v1, hit.b1, weight)
-        + off_edge(weighted, v2, hit.b2, weight);
+        + off_edge(weighted, v0, b0, margin)
+        + off_edge(weighted, v1, hit.b1, margin)
+        + off_edge(weighted, v2, hit.b2, margin);
     let mut surface = Surface {
         point,
         offset,
@@ -87,9 +89,9 @@ pub fn resolve<R: Real>(world: &World<impl Simulation>, ray: &Ray<R>, hit: &Hit<
 }
 
 /// What moves a point that lies on the edge opposite a corner, or nearly so, towards that corner, until the corner's
-/// weight is `least`; nothing for others.
-pub fn off_edge<R: Real>(point: Vec3<R>, corner: Vec3<R>, weight: R, least: R) -> Vec3<R> {
-    (corner - point) * (least - weight).greatest(R::ZERO)
+/// weight is `margin`; nothing for others.
+pub fn off_edge<R: Real>(point: Vec3<R>, corner: Vec3<R>, weight: R, margin: R) -> Vec3<R> {
+    (corner - point) * (margin - weight).greatest(R::ZERO)
 }
 
 /// A corner's shading normal on the ray's side.

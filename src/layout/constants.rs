@@ -100,9 +100,13 @@ shared! {
     /// point (Pharr, Jakob, Humphreys, 4th ed., section 6.8.5), and half as many of the face's greatest extent: what the
     /// test of another face in the same plane subtracts and shears.
     SPAWN_ROUNDOFFS: f64 = 8.0;
-    /// Points keep this many of those bounds, relative to the face's extent, off the edges: where two faces of a body
-    /// meet, a ray that leaves one of them must be on the right side of the other too.
-    EDGE_OFFSETS: f64 = 8.0;
+    /// Points keep off the edges of their face: each corner counts for this many unit roundoffs at least, times one and
+    /// the point's coordinates over the face's extent. Where two faces of a body meet, a ray that leaves one of them must
+    /// be on the right side of the other too, or it never meets it and the body is never left. 15 bound the rounding of
+    /// where it starts, as above; the rest is for faces of less height than extent.
+    EDGE_ROUNDOFFS: f64 = 128.0;
+    /// But no corner counts for more: far from the origin, where coordinates are coarser than faces.
+    MOST_EDGE_WEIGHT: f64 = 0.125;
 
     /// Weyl steps of the sample pattern, as fractions of 2^32: 1/φ₂ and 1/φ₂² of the plastic number φ₂
     /// (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences", R2).

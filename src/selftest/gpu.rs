@@ -1,5 +1,6 @@
 //! A Vulkan adapter as a device of the self-test.
 
+use super::lockstep::{Difference, Lockstep};
 use super::paths::BEND_WORDS;
 use super::{Answered, Bend, Bent, Device, DeviceError, Escape, Leave, Left, Stage, Walk, Walked};
 use crate::film::{Frame, Renderer};
@@ -189,6 +190,11 @@ impl Device for GpuDevice {
             Ok(())
         })?;
         Ok(answers)
+    }
+
+    fn differences(&mut self, records: usize) -> Answered<Difference> {
+        let mut lockstep = Lockstep::new(&self.options, self.variant.float, self.sources)?;
+        Ok(lockstep.compare_all(records)?)
     }
 
     fn picture(&mut self, stage: &Stage, settings: &Settings) -> Result<Frame, DeviceError> {

@@ -11,6 +11,7 @@ mod cases;
 mod cpu;
 mod device;
 mod gpu;
+pub mod lockstep;
 mod paper;
 mod paths;
 mod props;

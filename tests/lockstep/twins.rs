@@ -12,12 +12,12 @@ use super::planted::Planted;
 /// Files on one side only, and why.
 const ALONE: &[(&str, &str)] = &[
     ("bindings", "kernel::World holds what the buffers hold"),
-    ("probe", "the tests hold its twin"),
+    ("probe", "src/selftest/lockstep/record.rs is its twin"),
     ("probe_arithmetic", "src/selftest/arithmetic.rs is its twin"),
     ("probe_paths", "src/selftest/paths.rs is its twin"),
-    ("probe_plain", "the tests hold its twin"),
+    ("probe_plain", "src/selftest/lockstep/plain.rs is its twin"),
     ("probe_rays", "src/selftest/rays.rs is its twin"),
-    ("probe_scene", "the tests hold its twin"),
+    ("probe_scene", "src/selftest/lockstep/scene.rs is its twin"),
     ("records", "src/layout holds the records"),
     ("render", "the entry point: src/cpu is its twin"),
     ("vector", "WGSL has vectors"),

@@ -88,13 +88,13 @@ const FAULTS: &[Fault] = &[
     },
     Fault {
         case: "T13",
-        what: "media that are toggled, not set and cleared",
-        change: ("media", "select(mask & ~bit, mask | bit, inside)", "mask ^ bit"),
+        what: "media that are toggled on the way out, not cleared",
+        change: ("media", "let others = mask & ~bit;", "let others = mask ^ bit;"),
     },
     Fault {
         case: "T13",
         what: "points that may lie on edges",
-        change: ("surface", "EDGE_OFFSETS * offset", "0.0 * offset"),
+        change: ("surface", "(EDGE_ROUNDOFFS * ROUNDOFF)", "0.0"),
     },
     Fault {
         case: "T15",
@@ -135,7 +135,11 @@ const FAULTS: &[Fault] = &[
     Fault {
         case: "C4",
         what: "interfaces that transmit what they reflect as well",
-        change: ("material", "kt * (1.0 - f.reflectance);\n    } else", "kt;\n    } else"),
+        change: (
+            "material",
+            "result.transmission = kt * (1.0 - f.reflectance);",
+            "result.transmission = kt;",
+        ),
     },
     Fault {
         case: "C5",
@@ -181,6 +185,11 @@ const FAULTS: &[Fault] = &[
         case: "C13",
         what: "a cut-off that cuts what is just bright enough",
         change: ("whitted", "max3(branch.weight) >= real", "max3(branch.weight) > real"),
+    },
+    Fault {
+        case: "S1",
+        what: "a number that is off by one ULP",
+        change: ("material", "let k = (c * sum - 1.0)", "let k = (c * sum - 1.0000001)"),
     },
 ];
 

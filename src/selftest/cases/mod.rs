@@ -17,6 +17,7 @@ mod reversal;
 mod rod;
 mod scale;
 mod slab;
+mod strict;
 mod terminator;
 mod walls;
 
@@ -54,4 +55,5 @@ pub const CASES: &[Case] = &[
     mirrors::C11,
     mirrors::C12,
     hollow_cube::C13,
+    strict::S1,
 ];

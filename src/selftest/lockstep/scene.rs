@@ -1,16 +1,16 @@
 //! Functions that look at the scene. Twin of shaders/probe_scene.wgsl.
 
-use snellius::kernel::background::background;
-use snellius::kernel::bvh::{far, intersect, make_ray, occluded, slabs};
-use snellius::kernel::camera::primary_ray;
-use snellius::kernel::light::{direct, transmittance};
-use snellius::kernel::material::{scatter, shadow_transmission};
-use snellius::kernel::math::length3;
-use snellius::kernel::media::{attenuation, cross_face, current_medium};
-use snellius::kernel::surface::{Surface, resolve, spawn_before, spawn_behind};
-use snellius::kernel::texture::texture_color;
-use snellius::kernel::{Vec3, World};
-use snellius::layout::constants::NONE;
+use crate::kernel::background::background;
+use crate::kernel::bvh::{far, intersect, make_ray, occluded, slabs};
+use crate::kernel::camera::primary_ray;
+use crate::kernel::light::{direct, transmittance};
+use crate::kernel::material::{scatter, shadow_transmission};
+use crate::kernel::math::length3;
+use crate::kernel::media::{attenuation, cross_face, current_medium};
+use crate::kernel::surface::{Surface, resolve, spawn_before, spawn_behind};
+use crate::kernel::texture::texture_color;
+use crate::kernel::{Vec3, World};
+use crate::layout::constants::NONE;
 
 use super::Probe;
 use super::inputs::Input::{Direction, Number, Point, Positive, Word};
