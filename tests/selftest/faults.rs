@@ -173,8 +173,8 @@ const FAULTS: &[Fault] = &[
     },
     Fault {
         case: "C11",
-        what: "a mirror that is off by a ten-thousandth",
-        change: ("material", "n * (c + c)", "n * (c + c * 1.0001)"),
+        what: "a mirror that is turned by a ten-thousandth",
+        change: ("material", "n * (c + c)", "(n + vec3r(1e-4, 0.0, 0.0)) * (c + c)"),
     },
     Fault {
         case: "C12",
