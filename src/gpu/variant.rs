@@ -25,6 +25,8 @@ pub struct Variant {
     pub intersector: Intersector,
     /// Feature `aovs`: the film holds [`Aov`](crate::layout::Aov)s.
     pub aovs: bool,
+    /// Feature `adaptive`: the film holds [`Statistics`](crate::layout::Statistics), and a list of pixels.
+    pub adaptive: bool,
     /// Pending rays of a tree: one for each branching level. Constant `STACK_SIZE`.
     pub stack_size: u32,
     /// Pending nodes of a traversal. Constant `BVH_STACK`.
@@ -40,6 +42,7 @@ impl Variant {
             float: settings.float,
             intersector: settings.intersector,
             aovs: settings.aovs,
+            adaptive: settings.threshold().is_some(),
             // Every level down to the cut one may leave its reflection waiting, and a rest the current ray.
             stack_size: settings.depth + 2,
             bvh_stack: bvh_depth.saturating_sub(1).max(1),
@@ -60,11 +63,12 @@ impl Variant {
 
     /// What `@if(…)` asks for, and the answers.
     #[must_use]
-    pub fn features(&self) -> [(&'static str, bool); 3] {
+    pub fn features(&self) -> [(&'static str, bool); 4] {
         [
             ("f64", self.precision == Precision::F64),
             ("moller_trumbore", self.intersector == Intersector::MollerTrumbore),
             ("aovs", self.aovs),
+            ("adaptive", self.adaptive),
         ]
     }
 

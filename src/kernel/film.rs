@@ -3,7 +3,7 @@
 use crate::layout::constants::LEAST_NORMAL;
 use crate::layout::{Aov, Texel};
 
-use super::{Real, Vec3, World};
+use super::{Real, Vec3};
 
 /// What one sample gives the film.
 #[derive(Debug, Clone, Copy)]
@@ -26,8 +26,8 @@ pub struct Sample<R> {
     pub aov: Aov,
 }
 
-/// Add sample `index` to a pixel's running sums; the last one divides them by the number of samples.
-pub fn add<R: Real>(world: &World, texel: &mut Texel, sample: &Sample<R>, index: u32) {
+/// Add sample `index` to a pixel's running sums.
+pub fn add<R: Real>(texel: &mut Texel, sample: &Sample<R>, index: u32) {
     let r = sample.radiance;
     texel.radiance[0] += flush(r.x);
     texel.radiance[1] += flush(r.y);
@@ -39,14 +39,16 @@ pub fn add<R: Real>(world: &World, texel: &mut Texel, sample: &Sample<R>, index:
         texel.primitive_hash = sample.primitive_hash;
         texel.body_hash = sample.body_hash;
     }
-    if index + 1 == world.view.samples {
-        let n = world.view.samples as i32 as f32;
-        texel.radiance[0] = flush(texel.radiance[0] / n);
-        texel.radiance[1] = flush(texel.radiance[1] / n);
-        texel.radiance[2] = flush(texel.radiance[2] / n);
-        texel.dropped = flush(texel.dropped / n);
-        texel.bound = flush(texel.bound / n);
-    }
+}
+
+/// Divide a pixel's sums by its number of samples, once.
+pub fn settle(texel: &mut Texel, samples: u32) {
+    let n = samples as i32 as f32;
+    texel.radiance[0] = flush(texel.radiance[0] / n);
+    texel.radiance[1] = flush(texel.radiance[1] / n);
+    texel.radiance[2] = flush(texel.radiance[2] / n);
+    texel.dropped = flush(texel.dropped / n);
+    texel.bound = flush(texel.bound / n);
 }
 
 /// To f32, with subnormals as 0: devices differ on them.

@@ -4,8 +4,9 @@
 use crate::layout::constants::{
     MAX_DEPTH, MAX_PASSES, NONE, RAY_PRIMARY, RAY_REFLECTION, RAY_REFRACTION, RAY_SHADOW,
 };
-use crate::layout::{Aov, Texel};
+use crate::layout::{Aov, Statistics, Texel};
 
+use super::adaptive::tally;
 use super::background::background;
 use super::bvh::{far, intersect, make_ray};
 use super::camera::primary_ray;
@@ -53,6 +54,8 @@ pub struct Landing<R> {
 }
 
 /// Trace samples [first, first + count) of a pixel of the whole picture onto its texel. The AOV is that of sample 0.
+///
+/// With statistics (adaptive antialiasing) sums are left as they are, else the last of the view's samples settles them.
 pub fn trace_pixel<R: Real>(
     world: &World,
     stack: &mut Vec<Branch<R>>,
@@ -60,6 +63,7 @@ pub fn trace_pixel<R: Real>(
     samples: std::ops::Range<u32>,
     texel: &mut Texel,
     aov: &mut Aov,
+    mut statistics: Option<&mut Statistics>,
 ) -> [u32; 4] {
     let mut rays = [0; 4];
     for i in samples {
@@ -68,7 +72,12 @@ pub fn trace_pixel<R: Real>(
         let y = R::from_i32(pixel[1] as i32) + dy;
         let mut sample = start_tree(world, stack, primary_ray(world, x, y));
         trace_tree(world, stack, &mut sample);
-        film::add(world, texel, &sample, i);
+        film::add(texel, &sample, i);
+        match &mut statistics {
+            Some(statistics) => tally(statistics, film::flush3(sample.radiance), sample.aov.body),
+            None if i + 1 == world.view.samples => film::settle(texel, i + 1),
+            None => {}
+        }
         for (sum, n) in rays.iter_mut().zip(sample.rays_by_kind) {
             *sum += n;
         }

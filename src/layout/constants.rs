@@ -68,6 +68,10 @@ shared! {
     RAY_REFRACTION: u32 = 2;
     /// Index of shadow rays in counts by kind.
     RAY_SHADOW: u32 = 3;
+    /// Samples that adaptive antialiasing gives to every pixel: the fewest that tell how much they vary.
+    BASE_SAMPLES: u32 = 2;
+    /// Marks pixels whose samples met several bodies first.
+    SEVERAL: u32 = u32::MAX - 1;
     /// Marks an absent index.
     NONE: u32 = u32::MAX;
     /// Flag in [`Attribute::other`](super::Attribute::other): the second body's outside is on the other side.

@@ -33,13 +33,15 @@ pub enum Effect {
     Falloff,
     /// More than one sample a pixel.
     Antialiasing,
+    /// More samples for some pixels than for others.
+    Adaptive,
     /// Auxiliary pictures.
     Aovs,
 }
 
 impl Effect {
     /// All of them, in the order of tables.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Shadows,
         Self::TintedShadows,
         Self::Specular,
@@ -53,6 +55,7 @@ impl Effect {
         Self::Environment,
         Self::Falloff,
         Self::Antialiasing,
+        Self::Adaptive,
         Self::Aovs,
     ];
 
@@ -73,6 +76,7 @@ impl Effect {
             Self::Environment => "environment",
             Self::Falloff => "falloff",
             Self::Antialiasing => "antialiasing",
+            Self::Adaptive => "adaptive",
             Self::Aovs => "aovs",
         }
     }
@@ -237,6 +241,13 @@ impl<'a> Scan<'a> {
             Effect::Antialiasing => match settings.samples {
                 1 => Err("one sample a pixel"),
                 n => Ok(format!("{n} samples a pixel")),
+            },
+            Effect::Adaptive => match (settings.threshold(), settings.adaptive) {
+                (Some(threshold), _) => {
+                    Ok(format!("pixels are refined while one more sample is worth {threshold}"))
+                }
+                (None, Some(_)) => Err("there are too few samples to choose from"),
+                (None, None) => Err("it is not asked for"),
             },
             Effect::Aovs => {
                 if settings.aovs {

@@ -12,6 +12,7 @@ pub(super) const PLAIN: Variant = Variant {
     float: Float::Strict,
     intersector: Intersector::Watertight,
     aovs: false,
+    adaptive: false,
     stack_size: 1,
     bvh_stack: 1,
 };
