@@ -254,7 +254,7 @@ fn probe_wants_more(@builtin(global_invocation_id) id: vec3u) {
         var tile: Tile;
         tile.round = take_word();
         tile.threshold = f32(take());
-        put_flag(wants_more(here, around, tile, 64u));
+        put_flag(wants_more(here, around, tile, take_word()));
     }
 }
 

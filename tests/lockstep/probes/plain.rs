@@ -266,13 +266,14 @@ pub(super) const PROBES: &[Probe] = &[
             Fraction,
             Word(2),
             Fraction,
+            Word(100),
         ],
         outputs: 1,
         run: |_, io| {
             let (here, pooled) = (take_statistics(io), take_statistics(io));
             let around = Surroundings { pooled, variance: io.take() };
             let tile = Tile { round: io.take_word(), threshold: io.take(), ..Tile::default() };
-            io.put_flag(wants_more(&here, &around, &tile, 64));
+            io.put_flag(wants_more(&here, &around, &tile, io.take_word()));
         },
     },
     Probe {
