@@ -1,5 +1,6 @@
 #![doc = include_str!("ARCHITECTURE.md")]
 
+pub mod bench;
 pub mod bvh;
 pub mod cli;
 pub mod cpu;
@@ -9,3 +10,4 @@ pub mod gpu;
 pub mod kernel;
 pub mod layout;
 pub mod scene;
+pub mod selftest;

@@ -4,10 +4,12 @@ use std::io;
 
 use thiserror::Error;
 
+use crate::bench::BenchError;
 use crate::cpu::CpuError;
 use crate::film::{DifferenceError, EncodeError, LoadError, OutputError};
 use crate::gpu::GpuError;
 use crate::scene::{Diagnostic, SceneError};
+use crate::selftest::DeviceError;
 
 /// How a command that met no error ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,6 +60,26 @@ pub(super) enum CliError {
     Gpu(#[from] GpuError),
     #[error("cannot write the report as JSON: {0}")]
     Json(serde_json::Error),
+}
+
+impl From<BenchError> for CliError {
+    fn from(error: BenchError) -> Self {
+        match error {
+            BenchError::Cpu(error) => Self::Cpu(error),
+            BenchError::Gpu(error) => Self::Gpu(error),
+            BenchError::Scene(error) => Self::Scene(error),
+        }
+    }
+}
+
+impl From<DeviceError> for CliError {
+    fn from(error: DeviceError) -> Self {
+        match error {
+            DeviceError::Cpu(error) => Self::Cpu(error),
+            DeviceError::Gpu(error) => Self::Gpu(error),
+            DeviceError::Scene(error) => Self::Scene(error),
+        }
+    }
 }
 
 impl CliError {

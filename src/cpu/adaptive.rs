@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use crate::film::{Frame, Progress, RayCounts, SampleCounts, TraceTimes};
 use crate::kernel::adaptive::{round_end, surroundings, wants_more};
 use crate::kernel::whitted::trace_pixel;
-use crate::kernel::{Real, World, film};
+use crate::kernel::{Real, Simulation, World, film};
 use crate::layout::{Aov, Float, Settings, Statistics, Texel, Tile, View, refinement_rounds};
 
 /// Pixels that a thread takes at a time.
@@ -19,8 +19,8 @@ const CHUNK: usize = 256;
 ///
 /// The crop is traced with a border as wide as pixels learn from each other, so that it is a part of the whole. A stop
 /// settles every pixel with the samples that it has.
-pub(super) fn render_adaptive<R: Real>(
-    world: &World,
+pub(super) fn render_adaptive<R: Real, S: Simulation>(
+    world: &World<S>,
     settings: &Settings,
     threshold: f32,
     progress: &dyn Progress,
@@ -55,18 +55,20 @@ pub(super) fn render_adaptive<R: Real>(
 }
 
 /// A picture in work.
-struct Film<'a> {
-    world: &'a World<'a>,
+struct Film<'a, S> {
+    world: &'a World<'a, S>,
     progress: &'a dyn Progress,
     texels: Vec<Texel>,
     aovs: Vec<Aov>,
     statistics: Vec<Statistics>,
     rays: RayCounts,
+    /// The greatest progress told.
+    told: AtomicU64,
 }
 
-impl<'a> Film<'a> {
+impl<'a, S: Simulation> Film<'a, S> {
     /// A black one, of which every pixel is to be traced.
-    fn new(world: &'a World<'a>, progress: &'a dyn Progress) -> Self {
+    fn new(world: &'a World<'a, S>, progress: &'a dyn Progress) -> Self {
         let [_, _, width, height] = world.view.crop;
         let pixels = width as usize * height as usize;
         Self {
@@ -76,6 +78,7 @@ impl<'a> Film<'a> {
             aovs: vec![Aov::default(); pixels],
             statistics: vec![Statistics { listed: 1, ..Statistics::default() }; pixels],
             rays: RayCounts::default(),
+            told: AtomicU64::new(0),
         }
     }
 
@@ -86,6 +89,7 @@ impl<'a> Film<'a> {
         let total = self.statistics.len() as u64 * u64::from(limit);
         let spared = self.statistics.iter().filter(|one| one.listed == 0).count() as u64 * u64::from(limit);
         let done = AtomicU64::new(spared);
+        let told = &self.told;
         let stop = AtomicBool::new(false);
         let chunks = (
             self.texels.par_chunks_mut(CHUNK),
@@ -111,7 +115,9 @@ impl<'a> Film<'a> {
                 samples += u64::from(one.samples);
             }
             let done = done.fetch_add(samples, Ordering::Relaxed) + samples;
-            if progress.advance(done, total) == ControlFlow::Break(()) {
+            // Pixels that are taken up again do not turn it back.
+            let told = told.fetch_max(done, Ordering::Relaxed).max(done);
+            if progress.advance(told, total) == ControlFlow::Break(()) {
                 stop.store(true, Ordering::Relaxed);
             }
             rays

@@ -11,8 +11,8 @@ use rayon::prelude::*;
 
 use crate::film::{Frame, Progress, RayCounts, Renderer, SampleCounts, TraceTimes};
 use crate::kernel::whitted::{Branch, trace_pixel};
-use crate::kernel::{Real, World};
-use crate::layout::{Aov, FlatScene, Float, Precision, Settings, Texel, View};
+use crate::kernel::{Real, Simulation, World};
+use crate::layout::{Aov, Effect, FlatScene, Float, Precision, Scan, Settings, Texel, View};
 
 /// Side of a tile in pixels: small enough to balance the end of a frame, large enough to amortise its bookkeeping.
 const TILE: u32 = 16;
@@ -28,6 +28,8 @@ pub struct CpuError {
 /// Traces a scene on the CPU. The picture does not depend on the number of threads.
 pub struct CpuRenderer<'a> {
     scene: &'a FlatScene,
+    /// What the scene calls for.
+    scan: Scan,
     pool: rayon::ThreadPool,
 }
 
@@ -41,7 +43,7 @@ impl<'a> CpuRenderer<'a> {
             .num_threads(threads)
             .build()
             .map_err(|source| CpuError { threads, source })?;
-        Ok(Self { scene, pool })
+        Ok(Self { scene, scan: Scan::of(scene), pool })
     }
 
     /// How many threads trace.
@@ -60,7 +62,10 @@ impl Renderer for CpuRenderer<'_> {
         settings: &Settings,
         progress: &dyn Progress,
     ) -> Result<Frame, CpuError> {
-        let world = World { scene: self.scene, view, intersector: settings.intersector };
+        let plan = self.scan.effects(settings).plan(settings);
+        let view = &plan.applied_to(view);
+        let world =
+            World { scene: self.scene, view, intersector: settings.intersector, effects: plan.effects };
         Ok(self.pool.install(|| match settings.precision {
             Precision::F32 => render::<f32>(&world, settings, progress),
             Precision::F64 => render::<f64>(&world, settings, progress),
@@ -68,9 +73,9 @@ impl Renderer for CpuRenderer<'_> {
     }
 }
 
-fn render<R: Real>(world: &World, settings: &Settings, progress: &dyn Progress) -> Frame {
-    match settings.threshold() {
-        Some(threshold) => adaptive::render_adaptive::<R>(world, settings, threshold, progress),
+fn render<R: Real>(world: &World<impl Simulation>, settings: &Settings, progress: &dyn Progress) -> Frame {
+    match settings.threshold().filter(|_| world.simulates(Effect::Adaptive)) {
+        Some(threshold) => adaptive::render_adaptive::<R, _>(world, settings, threshold, progress),
         None => render_uniform::<R>(world, settings, progress),
     }
 }
@@ -85,7 +90,11 @@ struct Tile {
     rays: [u64; 4],
 }
 
-fn render_uniform<R: Real>(world: &World, settings: &Settings, progress: &dyn Progress) -> Frame {
+fn render_uniform<R: Real>(
+    world: &World<impl Simulation>,
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Frame {
     let [_, _, width, height] = world.view.crop;
     let pixels = width as usize * height as usize;
     let frame = Mutex::new(Frame {
@@ -125,7 +134,12 @@ fn render_uniform<R: Real>(world: &World, settings: &Settings, progress: &dyn Pr
     frame
 }
 
-fn trace_tile<R: Real>(world: &World, stack: &mut Vec<Branch<R>>, column: u32, row: u32) -> Tile {
+fn trace_tile<R: Real>(
+    world: &World<impl Simulation>,
+    stack: &mut Vec<Branch<R>>,
+    column: u32,
+    row: u32,
+) -> Tile {
     let [left, top, width, height] = world.view.crop;
     let (x, y) = (column * TILE, row * TILE);
     let (w, h) = (TILE.min(width - x), TILE.min(height - y));

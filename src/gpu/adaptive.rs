@@ -4,13 +4,14 @@
 //! of the crop's blocks, so that all others cost nothing; `settle_film` divides the sums in the end. The host learns
 //! only how long the list is.
 
+use std::cell::Cell;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
 use super::film::Pixels;
 use super::job::Job;
 use super::pace::Pace;
-use super::{GpuError, GpuRenderer, SOURCES, Variant, pipeline};
+use super::{GpuError, GpuRenderer, Variant, pipeline};
 use crate::film::{Frame, Progress, RayCounts, SampleCounts, TraceTimes};
 use crate::layout::constants::{BASE_SAMPLES, BLOCK};
 use crate::layout::{FilmHead, Tile, View, refinement_rounds};
@@ -65,13 +66,14 @@ impl GpuRenderer {
         let border = refinement_rounds(view.samples);
         let bands = self.bands(view, variant)?;
         let work = |band: &View| pixels_of(&band.grown(border)) * u64::from(view.samples);
-        let mut meter = Meter { progress, before: 0, total: bands.iter().map(work).sum() };
+        let mut meter =
+            Meter { progress, before: 0, total: bands.iter().map(work).sum(), told: Cell::new(0) };
         let mut frame = Frame {
             width: view.crop[2],
             height: 0,
             texels: Vec::new(),
             samples: SampleCounts::Each(Vec::new()),
-            aovs: variant.aovs.then(Vec::new),
+            aovs: variant.aovs().then(Vec::new),
             float: variant.float,
             rays: RayCounts::default(),
             times: TraceTimes::default(),
@@ -129,7 +131,7 @@ impl GpuRenderer {
         }
         let compile = |entry| {
             let (context, layout) = (&self.context, &self.scene.layout);
-            pipeline::compile(context, layout, SOURCES, ("sift", entry), variant).map(|one| one.pipeline)
+            pipeline::compile(context, layout, self.sources, ("sift", entry), variant).map(|one| one.pipeline)
         };
         let sifter = Sifter { sift: compile("sift")?, settle: compile("settle_film")? };
         self.sifters.insert(*variant, sifter.clone());
@@ -206,7 +208,7 @@ impl Rounds<'_> {
             height,
             texels: pixels.texels,
             samples: SampleCounts::Each(pixels.statistics.iter().map(|one| one.samples).collect()),
-            aovs: variant.aovs.then_some(pixels.aovs),
+            aovs: variant.aovs().then_some(pixels.aovs),
             float: variant.float,
             rays: self.rays,
             times: TraceTimes::default(),
@@ -225,11 +227,14 @@ struct Meter<'a> {
     /// Of the bands before.
     before: u64,
     total: u64,
+    /// What was told last: pixels that are taken up again do not turn it back.
+    told: Cell<u64>,
 }
 
 impl Meter<'_> {
     fn advance(&self, done: u64) -> ControlFlow<()> {
-        self.progress.advance(self.before + done, self.total)
+        self.told.set(self.told.get().max(self.before + done));
+        self.progress.advance(self.told.get(), self.total)
     }
 }
 

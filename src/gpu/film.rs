@@ -21,7 +21,7 @@ pub(super) struct PixelLayout {
 impl PixelLayout {
     /// Of the variant's films.
     pub(super) fn of(variant: &Variant) -> Self {
-        Self { aovs: variant.aovs, statistics: variant.adaptive }
+        Self { aovs: variant.aovs(), statistics: variant.adaptive() }
     }
 
     /// Bytes of a pixel.

@@ -11,9 +11,10 @@ use super::film::{FilmBuffer, PixelLayout};
 use super::job::Job;
 use super::pace::Pace;
 use super::pipeline::Compiled;
-use super::{AdapterReport, GpuError, GpuOptions, SOURCES, Variant, pipeline};
+use super::{AdapterReport, GpuError, GpuOptions, SOURCES, Source, Variant, pipeline};
 use crate::film::{Frame, Progress, RayCounts, Renderer, SampleCounts, TraceTimes};
-use crate::layout::{FlatScene, Float, Settings, Tile, View};
+use crate::layout::constants::BLOCK;
+use crate::layout::{FlatScene, Float, Plan, Scan, Settings, Tile, View};
 
 /// File and name of the entry point.
 const ENTRY: (&str, &str) = ("render", "render");
@@ -21,8 +22,12 @@ const ENTRY: (&str, &str) = ("render", "render");
 /// A scene on an adapter.
 pub struct GpuRenderer {
     pub(super) context: Context,
+    pub(super) sources: &'static [Source<'static>],
     pub(super) scene: SceneBuffers,
+    /// Of the deepest tree so far: its stack serves the others.
     bvh_depth: u32,
+    /// What the scene calls for.
+    scan: Scan,
     /// What the upload took, until a frame has told it.
     upload: Duration,
     pipelines: HashMap<Variant, Compiled>,
@@ -39,13 +44,27 @@ impl GpuRenderer {
     /// [`GpuError::NoAdapter`], [`GpuError::TooLarge`] (checked before anything is uploaded),
     /// [`GpuError::Refused`], [`GpuError::OutOfMemory`], [`GpuError::DeviceLost`].
     pub fn new(scene: &FlatScene, options: &GpuOptions) -> Result<Self, GpuError> {
+        Self::with_sources(scene, options, SOURCES)
+    }
+
+    /// The same with other shader files than the program's own: for tests that plant faults in them.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_sources(
+        scene: &FlatScene,
+        options: &GpuOptions,
+        sources: &'static [Source<'static>],
+    ) -> Result<Self, GpuError> {
         let context = Context::new(options)?;
         let start = Instant::now();
         let buffers = SceneBuffers::new(&context, scene)?;
         Ok(Self {
             context,
+            sources,
             scene: buffers,
             bvh_depth: scene.bvh_depth,
+            scan: Scan::of(scene),
             upload: start.elapsed(),
             pipelines: HashMap::new(),
             sifters: HashMap::new(),
@@ -60,9 +79,37 @@ impl GpuRenderer {
         &self.context.adapter
     }
 
+    /// Put another scene in place of this one. What was compiled is kept, unless the new scene's tree is deeper.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`], [`GpuError::OutOfMemory`], [`GpuError::DeviceLost`].
+    pub fn show(&mut self, scene: &FlatScene) -> Result<(), GpuError> {
+        let start = Instant::now();
+        self.scene = SceneBuffers::new(&self.context, scene)?;
+        self.bvh_depth = self.bvh_depth.max(scene.bvh_depth);
+        self.scan = Scan::of(scene);
+        self.upload = start.elapsed();
+        Ok(())
+    }
+
+    /// Bytes of device memory that an invocation under these settings rests in: its stack, its sample and its ray.
+    ///
+    /// # Errors
+    /// As of [`Renderer::render`], where the shader is not compiled yet.
+    pub fn invocation_bytes(&mut self, settings: &Settings) -> Result<u64, GpuError> {
+        let variant = self.variant(settings);
+        let invocations = u64::from(variant.most_blocks() * BLOCK * BLOCK);
+        Ok(self.pipeline(&variant)?.texels_at / invocations)
+    }
+
+    /// What is simulated under these settings.
+    fn plan(&self, settings: &Settings) -> Plan {
+        self.scan.effects(settings).plan(settings)
+    }
+
     /// The variant for these settings: fast where the adapter cannot be strict.
     fn variant(&self, settings: &Settings) -> Variant {
-        let variant = Variant::new(self.bvh_depth, settings);
+        let variant = Variant::new(self.bvh_depth, settings, &self.plan(settings));
         let float = if self.context.adapter.strict_float { variant.float } else { Float::Fast };
         Variant { float, ..variant }
     }
@@ -111,7 +158,7 @@ impl GpuRenderer {
         if let Some(pipeline) = self.pipelines.get(variant) {
             return Ok(pipeline.clone());
         }
-        let pipeline = pipeline::compile(&self.context, &self.scene.layout, SOURCES, ENTRY, variant)?;
+        let pipeline = pipeline::compile(&self.context, &self.scene.layout, self.sources, ENTRY, variant)?;
         self.pipelines.insert(*variant, pipeline.clone());
         Ok(pipeline)
     }
@@ -135,7 +182,8 @@ impl Renderer for GpuRenderer {
         let start = Instant::now();
         let upload = std::mem::take(&mut self.upload);
         let variant = self.variant(settings);
-        if let Some(threshold) = settings.threshold() {
+        let view = &self.plan(settings).applied_to(view);
+        if let Some(threshold) = settings.threshold().filter(|_| variant.adaptive()) {
             let mut frame = self.render_adaptive(view, &variant, threshold, progress)?;
             frame.times.upload = upload;
             return Ok(frame);
@@ -148,7 +196,7 @@ impl Renderer for GpuRenderer {
             height: blocks.height,
             texels: Vec::new(),
             samples: SampleCounts::Same(view.samples),
-            aovs: variant.aovs.then(Vec::new),
+            aovs: variant.aovs().then(Vec::new),
             float: variant.float,
             rays: RayCounts::default(),
             times,

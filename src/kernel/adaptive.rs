@@ -1,8 +1,10 @@
 //! Adaptive antialiasing: where more samples are worth their rays. Twin of `shaders/adaptive.wgsl`.
 //!
-//! Of n samples with standard deviation σ, one more moves the mean by σ/(n + 1) or so, and lowers its squared error
-//! σ²/n by σ²/n². Going on while σ > T·n therefore spends every ray where it lowers the error most (the square root of
-//! what Neyman's allocation equalises), where a bound on the standard error σ/√n would drown noisy pixels in samples.
+//! Of n samples with standard deviation σ, one more moves the mean by about σ/n, and lowers its squared error σ²/n by
+//! about σ²/n². Going on while σ/n ≥ T therefore spends each sample where it lowers the error of the picture most: n
+//! comes out proportional to σ, as in the optimal allocation of Neyman (1934, "On the two different aspects of the
+//! representative method", J. R. Stat. Soc. 97(4)). A bound on the standard error σ/√n instead would make n proportional
+//! to σ² and drown the noisiest pixels in samples.
 //!
 //! σ is measured on values for a display, [`display`], so that T is a step that an eye sees alike in light and dark. A
 //! few samples tell little of σ, so a pixel's neighbours vote with it (Whitted 1980: a square whose corners differ is

@@ -24,6 +24,8 @@ pub struct Sample<R> {
     pub body_hash: u32,
     /// What the primary ray met.
     pub aov: Aov,
+    /// Body that the primary ray met, or [`Attribute::NONE`](crate::layout::Attribute::NONE).
+    pub first_body: u32,
 }
 
 /// Add sample `index` to a pixel's running sums.

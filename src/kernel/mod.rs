@@ -23,4 +23,4 @@ mod world;
 
 pub use real::Real;
 pub use vector::Vec3;
-pub use world::World;
+pub use world::{Simulation, World};

@@ -1,6 +1,7 @@
 //! Adaptive antialiasing: what the film knows of a pixel's samples, and how far refinement reaches.
 //!
-//! Whitted (1980, "Adaptive Tree Anti-aliasing") samples a picture coarsely and goes on where neighbours differ. Here
+//! Whitted (1980, "An improved illumination model for shaded display", CACM 23(6)) samples a picture coarsely and
+//! goes on where neighbours differ. Here
 //! every pixel gets `BASE_SAMPLES`; then rounds follow. In a round, each pixel whose mean is still expected to move by
 //! more than a threshold with one more sample gets as many samples again as it has. `kernel::adaptive` decides.
 

@@ -1,5 +1,6 @@
 //! How to trace: shared by both devices.
 
+use super::EffectChoice;
 use super::constants::BASE_SAMPLES;
 
 /// Which device traces.
@@ -61,6 +62,8 @@ pub struct Settings {
     pub intersector: Intersector,
     /// Whether to fill [`Aov`](super::Aov)s.
     pub aovs: bool,
+    /// Which effects to simulate.
+    pub effects: EffectChoice,
 }
 
 /// Thresholds of adaptive antialiasing below this are 0: no picture shows them, and subnormals decide nothing.
@@ -87,6 +90,7 @@ impl Default for Settings {
             float: Float::default(),
             intersector: Intersector::default(),
             aovs: false,
+            effects: EffectChoice::default(),
         }
     }
 }

@@ -14,8 +14,8 @@ use super::source::Source;
 use super::table::Table;
 use super::texture::Textures;
 use super::{
-    Background, Camera, Diagnostic, Model, Normals, RenderDefaults, Repeat, Scene, SceneError, camera,
-    default_view, fault, surroundings,
+    Background, Camera, Diagnostic, Limits, Model, Normals, RenderDefaults, Repeat, Scene, SceneError,
+    camera, default_view, fault, surroundings,
 };
 
 impl Scene {
@@ -36,23 +36,47 @@ impl Scene {
     /// }
     /// ```
     pub fn load(path: &Path) -> Result<Self, SceneError> {
+        Self::load_within(path, Limits::default())
+    }
+
+    /// The same within other limits.
+    ///
+    /// # Errors
+    /// As [`Scene::load`], and what is beyond the limits.
+    pub fn load_within(path: &Path, limits: Limits) -> Result<Self, SceneError> {
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         match extension.as_str() {
-            "toml" => from_toml(&Source::read(path)?),
-            "obj" => from_mesh(path),
+            "toml" => from_toml(&Source::read(path)?, limits),
+            "obj" => from_mesh(path, limits),
             _ => Err(Diagnostic::error(format!("{} is not a scene", path.display()))
                 .hint("a scene is a .toml file, or a bare .obj mesh")
                 .into()),
         }
     }
+
+    /// Read a scene from text, as [`load`](Self::load) does from the `.toml` file at `path`: messages name it, and files
+    /// that the text names are relative to it.
+    ///
+    /// # Errors
+    /// As [`load`](Self::load).
+    ///
+    /// # Examples
+    /// ```
+    /// # use snellius::scene::Scene;
+    /// let text = "[[model]]\nshape = { sphere = { radius = 1 } }\nmaterial = 'glas'";
+    /// assert!(Scene::parse("ball.toml".as_ref(), text).unwrap_err().to_string().contains("glas"));
+    /// ```
+    pub fn parse(path: &Path, text: &str) -> Result<Self, SceneError> {
+        from_toml(&Source::new(path, text.to_owned()), Limits::default())
+    }
 }
 
 /// Read a scene file.
-fn from_toml(source: &Source) -> Result<Scene, SceneError> {
+fn from_toml(source: &Source, limits: Limits) -> Result<Scene, SceneError> {
     let document = fault::parse(source)?;
     let directory = source.path.parent().unwrap_or(Path::new(""));
     let mut shared =
-        Shared { source, directory, materials: Materials::default(), textures: Textures::default() };
+        Shared { source, directory, materials: Materials::default(), textures: Textures::within(limits) };
     let mut faults = Faults::default();
     let camera = document.camera.as_ref().map(|table| faults.keep(camera::camera(table, source)));
     let background = document
@@ -62,7 +86,7 @@ fn from_toml(source: &Source) -> Result<Scene, SceneError> {
     for (name, table) in material::in_file_order(&document) {
         faults.keep(shared.materials.define(name, table, source, directory, &mut shared.textures));
     }
-    let mut models = Models::default();
+    let mut models = Models::within(limits);
     for table in &document.model {
         faults.keep(models.define(table, &mut shared));
     }
@@ -127,10 +151,12 @@ fn unused_materials(document: &Document, source: &Source) -> Vec<Diagnostic> {
 }
 
 /// Read a bare mesh; frame and light it.
-fn from_mesh(path: &Path) -> Result<Scene, SceneError> {
-    let mut textures = Textures::default();
+fn from_mesh(path: &Path, limits: Limits) -> Result<Scene, SceneError> {
+    let mut textures = Textures::within(limits);
     let mut materials = Materials::default();
-    let (mesh, obj) = Models::default().read(path)?;
+    let mut models = Models::within(limits);
+    let (mesh, obj) = models.read(path)?;
+    models.count(mesh.triangles.len(), Repeat::default())?;
     let slots = materials
         .of_mesh(&obj, path, &mut textures, |materials| Ok(materials.add(default_view::material())))?;
     let model = Model {

@@ -1,27 +1,29 @@
 //! Every variant of the shaders assembles and validates, with no device at hand.
 
-use snellius::gpu::{GpuError, SOURCES, Variant, assemble, write_spirv};
-use snellius::layout::{Float, Intersector, Precision};
+use snellius::gpu::{GpuError, Promises, SOURCES, Variant, assemble, write_spirv};
+use snellius::layout::{EffectSet, Float, Intersector, Lights, Precision};
 
-/// Every variant, with the smallest and the largest stacks.
+use crate::effects::covering::covering;
+
+/// Variants in which any two effects are on and off in every combination that there is, first the general one; with
+/// each precision, intersector, number of lights, and with small and large stacks.
 pub(super) fn all() -> Vec<Variant> {
+    let sets = [EffectSet::ALL, EffectSet::NONE].into_iter().chain(covering(EffectSet::NONE));
     let mut variants = Vec::new();
-    for precision in [Precision::F32, Precision::F64] {
-        for intersector in [Intersector::Watertight, Intersector::MollerTrumbore] {
-            for (aovs, adaptive) in [(false, false), (true, false), (false, true), (true, true)] {
-                for (stack_size, bvh_stack) in [(1, 1), (64, 63)] {
-                    let float = Float::Strict;
-                    variants.push(Variant {
-                        precision,
-                        float,
-                        intersector,
-                        aovs,
-                        adaptive,
-                        stack_size,
-                        bvh_stack,
-                    });
-                }
-            }
+    for (index, effects) in sets.enumerate() {
+        for precision in [Precision::F32, Precision::F64] {
+            let intersectors = [Intersector::Watertight, Intersector::MollerTrumbore];
+            let sizes = [(64, 63), (0, 1), (1, 1)];
+            let lights = [Lights::Many, Lights::One, Lights::None];
+            variants.push(Variant {
+                precision,
+                float: Float::Strict,
+                intersector: intersectors[index % 2],
+                effects,
+                lights: lights[index / 2 % 3],
+                stack_size: sizes[index % 3].0,
+                bvh_stack: sizes[index % 3].1,
+            });
         }
     }
     variants
@@ -30,13 +32,13 @@ pub(super) fn all() -> Vec<Variant> {
 #[test]
 fn every_variant_validates_and_is_written_as_spirv() {
     for variant in all() {
-        let between: &[_] = if variant.adaptive { &["sift", "settle_film"] } else { &[] };
+        let between: &[_] = if variant.adaptive() { &["sift", "settle_film"] } else { &[] };
         let between = between.iter().map(|entry| ("sift", *entry));
         for (root, entry) in [("render", "render")].into_iter().chain(between) {
             let shader = assemble(SOURCES, root, entry, &variant)
                 .unwrap_or_else(|error| panic!("{entry}, {variant:?}: {error}"));
             for float in [Float::Strict, Float::Fast] {
-                let words = write_spirv(&shader, &Variant { float, ..variant });
+                let words = write_spirv(&shader, &Variant { float, ..variant }, &Promises::default());
                 assert!(words.is_ok_and(|words| words.len() > 500), "{entry}, {variant:?}");
             }
         }
@@ -45,7 +47,7 @@ fn every_variant_validates_and_is_written_as_spirv() {
 
 #[test]
 fn without_refinement_the_shader_knows_nothing_of_it() {
-    for variant in all().into_iter().filter(|variant| !variant.adaptive) {
+    for variant in all().into_iter().filter(|variant| !variant.adaptive()) {
         let wgsl = assemble(SOURCES, "render", "render", &variant).unwrap().wgsl;
         for word in ["Statistics", "tally", "slot_in_list", "first_body"] {
             assert!(!wgsl.contains(word), "{word}");

@@ -8,7 +8,7 @@ use super::super::values::{AovFile, Crop, ProgressStyle, Size};
 use super::args::RenderArgs;
 use super::export::PngOptions;
 use crate::film::{AovKind, Development, Format, Output};
-use crate::layout::{Float, Intersector, Precision, Settings};
+use crate::layout::{EffectChoice, Float, Intersector, Precision, Settings};
 use crate::scene::RenderDefaults;
 
 /// What `render` is to do, as far as the flags tell; the scene settles the rest.
@@ -24,6 +24,7 @@ pub(super) struct RenderConfig {
     pub(super) cutoff: Option<f64>,
     pub(super) samples: Option<u32>,
     pub(super) adaptive: Option<f64>,
+    pub(super) effects: EffectChoice,
     pub(super) intersector: Intersector,
     pub(super) crop: Option<Crop>,
     pub(super) png: PngOptions,
@@ -51,6 +52,7 @@ impl RenderConfig {
             cutoff: args.cutoff,
             samples: args.samples,
             adaptive: args.adaptive,
+            effects: args.effects,
             intersector: args.arithmetic.intersector,
             crop: args.crop,
             png,
@@ -80,6 +82,7 @@ impl RenderConfig {
             float: self.float,
             intersector: self.intersector,
             aovs: self.aovs.iter().any(|(kind, _)| kind.needs_aovs()),
+            effects: self.effects,
         }
     }
 

@@ -273,7 +273,8 @@ pub(super) const PROBES: &[Probe] = &[
             let (here, pooled) = (take_statistics(io), take_statistics(io));
             let around = Surroundings { pooled, variance: io.take() };
             let tile = Tile { round: io.take_word(), threshold: io.take(), ..Tile::default() };
-            io.put_flag(wants_more(&here, &around, &tile, io.take_word()));
+            let limit = io.take_word();
+            io.put_flag(wants_more(&here, &around, &tile, limit));
         },
     },
     Probe {
