@@ -1,10 +1,11 @@
 // The itinerary: the whole ray tree of a sample, one loop with an explicit stack. Twin of src/kernel/whitted.rs.
 
 import package::real::{real, vec3r};
+import package::adaptive::{round_end, tally};
 import package::background::background;
 import package::bvh::{far, intersect, make_ray, steps};
 import package::camera::primary_ray;
-import package::film::{Sample, add, flush, flush3};
+import package::film::{Sample, add, flush, flush3, settle};
 import package::hash::{mix_hash, sample_offset};
 import package::light::direct;
 import package::material::{is_transmissive, scatter};
@@ -54,8 +55,13 @@ var<private> lane: u32;
 // Trace the tile's samples of a pixel of the whole picture onto texel `slot` of the film; false if it had to rest, to be
 // resumed by the next dispatch.
 fn trace_pixel(pixel: vec2u, slot: u32) -> bool {
-    let end = film.head.tile.first_sample + film.head.tile.sample_count;
     var i = film.head.tile.first_sample;
+    var end = i + film.head.tile.sample_count;
+    @if(adaptive) {
+        let start = film.texels[slot].statistics.start;
+        i += start;
+        end = min(start + end, round_end(start, frame.view.samples));
+    }
     // A tree of one ray rests before it begins.
     var resumes = false;
     if film.head.tile.resume != 0u {
@@ -81,6 +87,15 @@ fn trace_pixel(pixel: vec2u, slot: u32) -> bool {
             break;
         }
         film.texels[slot].texel = add(film.texels[slot].texel, sample, i);
+        @if(adaptive) {
+            film.texels[slot].statistics =
+                tally(film.texels[slot].statistics, flush3(sample.radiance), sample.first_body);
+        }
+        @if(antialiasing && !adaptive) {
+            if i > 0u && i + 1u == frame.view.samples {
+                film.texels[slot].texel = settle(film.texels[slot].texel, i + 1u);
+            }
+        }
         @if(aovs) {
             if i == 0u {
                 film.texels[slot].aov = sample.aov;
@@ -110,6 +125,7 @@ fn start_tree(direction: vec3r) {
     sample.primitive_hash = 0u;
     sample.body_hash = 0u;
     @if(aovs) { sample.aov = Aov(vec3f(0.0), 0.0, NONE, NONE, vec2u(0u)); }
+    @if(adaptive) { sample.first_body = NONE; }
     @if(branches) stack_size = 0u;
     current.origin = vec3r(frame.view.eye);
     @if(transmission) current.media = frame.view.start_media;
@@ -261,6 +277,11 @@ fn shade(branch: Branch, landing: Landing) -> Next {
     @if(aovs) {
         if branch.depth == 0u {
             sample.aov = Aov(flush3(surface.normal), flush(landing.distance), surface.body, behind, vec2u(0u));
+        }
+    }
+    @if(adaptive) {
+        if branch.depth == 0u {
+            sample.first_body = surface.body;
         }
     }
     // Children: where there are two, reflection waits.

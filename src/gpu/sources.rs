@@ -8,8 +8,10 @@ macro_rules! sources {
 
 /// Every file of `shaders/`, by stem.
 pub const SOURCES: &[Source<'static>] = sources! {
+    "adaptive"
     "background"
     "bindings"
+    "blocks"
     "bvh"
     "camera"
     "film"
@@ -27,6 +29,7 @@ pub const SOURCES: &[Source<'static>] = sources! {
     "real"
     "records"
     "render"
+    "sift"
     "surface"
     "texture"
     "triangle"

@@ -24,7 +24,7 @@ pub struct Variant {
     /// Feature `moller_trumbore`.
     pub intersector: Intersector,
     /// A feature for each effect, under its name with `_` for `-`. With `aovs` the film holds
-    /// [`Aov`](crate::layout::Aov)s.
+    /// [`Aov`](crate::layout::Aov)s, with `adaptive` [`Statistics`](crate::layout::Statistics).
     pub effects: EffectSet,
     /// Feature `lights` where there are any, and `one_light`.
     pub lights: Lights,
@@ -66,6 +66,12 @@ impl Variant {
     #[must_use]
     pub fn aovs(&self) -> bool {
         self.effects.has(Effect::Aovs)
+    }
+
+    /// Whether the film holds [`Statistics`](crate::layout::Statistics), and a list of pixels.
+    #[must_use]
+    pub fn adaptive(&self) -> bool {
+        self.effects.has(Effect::Adaptive)
     }
 
     /// What `@if(…)` asks for, and the answers.

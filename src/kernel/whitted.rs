@@ -4,8 +4,9 @@
 use crate::layout::constants::{
     MAX_DEPTH, MAX_PASSES, NONE, RAY_PRIMARY, RAY_REFLECTION, RAY_REFRACTION, RAY_SHADOW,
 };
-use crate::layout::{Aov, Effect, Texel};
+use crate::layout::{Aov, Effect, Statistics, Texel};
 
+use super::adaptive::tally;
 use super::background::background;
 use super::bvh::{far, intersect, make_ray};
 use super::camera::primary_ray;
@@ -55,6 +56,8 @@ pub struct Landing<R> {
 }
 
 /// Trace samples [first, first + count) of a pixel of the whole picture onto its texel. The AOV is that of sample 0.
+///
+/// With statistics (adaptive antialiasing) sums are left as they are, else the last of the view's samples settles them.
 pub fn trace_pixel<R: Real>(
     world: &World<impl Simulation>,
     stack: &mut Vec<Branch<R>>,
@@ -62,6 +65,7 @@ pub fn trace_pixel<R: Real>(
     samples: std::ops::Range<u32>,
     texel: &mut Texel,
     aov: &mut Aov,
+    mut statistics: Option<&mut Statistics>,
 ) -> [u32; 4] {
     let mut rays = [0; 4];
     for i in samples {
@@ -70,7 +74,16 @@ pub fn trace_pixel<R: Real>(
         let y = R::from_i32(pixel[1] as i32) + dy;
         let mut sample = start_tree(world, stack, primary_ray(world, x, y));
         trace_tree(world, stack, &mut sample);
-        film::add(world, texel, &sample, i);
+        film::add(texel, &sample, i);
+        match &mut statistics {
+            Some(statistics) => tally(statistics, film::flush3(sample.radiance), sample.first_body),
+            None => {
+                let is_last = i > 0 && i + 1 == world.view.samples;
+                if is_last && world.simulates(Effect::Antialiasing) {
+                    film::settle(texel, i + 1);
+                }
+            }
+        }
         for (sum, n) in rays.iter_mut().zip(sample.rays_by_kind) {
             *sum += n;
         }
@@ -113,6 +126,7 @@ pub fn start_tree<R: Real>(
         primitive_hash: 0,
         body_hash: 0,
         aov: Aov { body: NONE, medium: NONE, ..Aov::default() },
+        first_body: NONE,
     }
 }
 
@@ -251,6 +265,9 @@ pub fn shade<R: Real>(
             medium: behind,
             reserved: [0; 2],
         };
+    }
+    if branch.depth == 0 && world.simulates(Effect::Adaptive) {
+        sample.first_body = surface.body;
     }
     // Children: where there are two, reflection waits.
     let mut next = None;

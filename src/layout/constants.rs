@@ -76,6 +76,10 @@ shared! {
     RAY_REFRACTION: u32 = 2;
     /// Index of shadow rays in counts by kind.
     RAY_SHADOW: u32 = 3;
+    /// Samples that adaptive antialiasing gives to every pixel: the fewest that tell how much they vary.
+    BASE_SAMPLES: u32 = 2;
+    /// Marks pixels whose samples met several bodies first.
+    SEVERAL: u32 = u32::MAX - 1;
     /// Material index of the air.
     AIR: u32 = 0;
     /// Marks an absent index.

@@ -11,6 +11,7 @@ use super::planted::Planted;
 
 /// Files on one side only, and why.
 const ALONE: &[(&str, &str)] = &[
+    ("blocks", "src/cpu numbers pixels as it likes"),
     ("bindings", "kernel::World holds what the buffers hold"),
     ("probe", "src/selftest/lockstep/record.rs is its twin"),
     ("probe_arithmetic", "src/selftest/arithmetic.rs is its twin"),
@@ -20,6 +21,7 @@ const ALONE: &[(&str, &str)] = &[
     ("probe_scene", "src/selftest/lockstep/scene.rs is its twin"),
     ("records", "src/layout holds the records"),
     ("render", "the entry point: src/cpu is its twin"),
+    ("sift", "the entry points between rounds: src/cpu is their twin"),
     ("vector", "WGSL has vectors"),
     ("world", "shaders/bindings is its twin"),
     ("mod", "lists the files"),
