@@ -10,3 +10,4 @@ pub mod kernel;
 pub mod layout;
 pub mod scene;
 pub mod selftest;
+pub mod study;

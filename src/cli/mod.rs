@@ -10,7 +10,9 @@ mod devices;
 mod diff;
 mod error;
 mod prepare;
+mod progress;
 mod render;
+mod study;
 mod values;
 mod view;
 
@@ -60,6 +62,7 @@ enum Command {
     Check(check::CheckArgs),
     Devices(devices::DevicesArgs),
     Diff(diff::DiffArgs),
+    Study(study::StudyArgs),
     /// A scene, or a mistake.
     #[command(external_subcommand)]
     Scene(Vec<OsString>),
@@ -88,6 +91,7 @@ fn run(cli: Cli, console: Console) -> Result<Outcome, CliError> {
         Some(Command::Check(args)) => check::run(&args),
         Some(Command::Devices(args)) => devices::run(&args, console),
         Some(Command::Diff(args)) => diff::run(args, console),
+        Some(Command::Study(args)) => study::run(args, console),
         Some(Command::Scene(words)) => Err(view::no_viewer(&words)),
         None => {
             console::print(&Cli::command().render_help().to_string())?;

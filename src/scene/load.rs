@@ -36,9 +36,18 @@ impl Scene {
     /// }
     /// ```
     pub fn load(path: &Path) -> Result<Self, SceneError> {
+        Self::load_refined(path, 0)
+    }
+
+    /// [`Scene::load`], with the levels of built-in solids raised by `steps`, or lowered below 0: as far as
+    /// each solid's range goes. Meshes stay as they are.
+    ///
+    /// # Errors
+    /// As [`Scene::load`].
+    pub fn load_refined(path: &Path, steps: i32) -> Result<Self, SceneError> {
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         match extension.as_str() {
-            "toml" => from_toml(&Source::read(path)?),
+            "toml" => from_toml(&Source::read(path)?, steps),
             "obj" => from_mesh(path),
             _ => Err(Diagnostic::error(format!("{} is not a scene", path.display()))
                 .hint("a scene is a .toml file, or a bare .obj mesh")
@@ -48,11 +57,11 @@ impl Scene {
 }
 
 /// Read a scene file.
-fn from_toml(source: &Source) -> Result<Scene, SceneError> {
+fn from_toml(source: &Source, refine: i32) -> Result<Scene, SceneError> {
     let document = fault::parse(source)?;
     let directory = source.path.parent().unwrap_or(Path::new(""));
     let mut shared =
-        Shared { source, directory, materials: Materials::default(), textures: Textures::default() };
+        Shared { source, directory, materials: Materials::default(), textures: Textures::default(), refine };
     let mut faults = Faults::default();
     let camera = document.camera.as_ref().map(|table| faults.keep(camera::camera(table, source)));
     let background = document

@@ -14,6 +14,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("film", &["layout"]),
     ("cpu", &["kernel", "layout", "film"]),
     ("gpu", &["layout", "film"]),
+    ("study", &["flatten", "cpu", "gpu", "film", "layout", "scene"]),
     ("selftest", &["kernel", "bvh", "layout", "film", "scene", "flatten", "cpu", "gpu"]),
 ];
 

@@ -3,7 +3,6 @@
 mod args;
 mod config;
 mod export;
-mod progress;
 mod report;
 
 use std::time::{Duration, Instant};
@@ -11,6 +10,7 @@ use std::time::{Duration, Instant};
 use super::console::{Console, print_json};
 use super::device::Device;
 use super::prepare::Prepared;
+use super::progress::RenderProgress;
 use super::values::{Size, name_of};
 use super::{CliError, Outcome};
 use crate::film::{Frame, Metadata, Renderer, Summary};
@@ -19,7 +19,6 @@ use crate::layout::{Effects, Settings};
 use crate::scene::RenderDefaults;
 pub(super) use args::RenderArgs;
 use config::RenderConfig;
-use progress::RenderProgress;
 use report::{RenderReport, Times};
 
 pub(super) fn run(args: RenderArgs, console: Console) -> Result<Outcome, CliError> {
