@@ -8,6 +8,7 @@ pub mod flatten;
 pub mod gpu;
 pub mod kernel;
 pub mod layout;
+pub mod plot;
 pub mod scene;
 pub mod selftest;
 pub mod study;

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use crate::cpu::CpuError;
 use crate::film::{DifferenceError, EncodeError, OutputError};
 use crate::gpu::GpuError;
+use crate::plot::RasterError;
 use crate::scene::SceneError;
 
 /// Why a study cannot be made.
@@ -42,13 +43,8 @@ pub enum StudyError {
     #[error("cannot write the study as JSON: {0}")]
     Json(#[from] serde_json::Error),
     /// A plot cannot be drawn in pixels.
-    #[error("cannot rasterise the plot {name}: {reason}")]
-    Raster {
-        /// The plot's file stem.
-        name: String,
-        /// Why not.
-        reason: String,
-    },
+    #[error(transparent)]
+    Raster(#[from] RasterError),
     /// Not even the baseline fits the time.
     #[error("one picture of the baseline takes over {seconds:.0} s, half of the time of the whole study")]
     TooSlow {

@@ -1,11 +1,11 @@
 //! The plots of a report.
 
 use super::pareto::front;
-use super::plot::{
+use super::{Certificate, Knob, Report, RowRecord, Truth};
+use crate::plot::{
     Axis, BLACK, BLUE, Figure, GREEN, Kind, Line, Mark, ORANGE, PURPLE, Panel, Point, Rule, SKY, Series,
     VERMILLION,
 };
-use super::{Certificate, Knob, Report, RowRecord, Truth};
 
 /// All plots that the report has figures for.
 pub(super) fn figures(report: &Report) -> Vec<Figure> {

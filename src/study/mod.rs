@@ -16,7 +16,6 @@ mod metrics;
 mod output;
 mod pareto;
 mod plan;
-mod plot;
 mod reference;
 mod report;
 mod run;

@@ -14,7 +14,8 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("film", &["layout"]),
     ("cpu", &["kernel", "layout", "film"]),
     ("gpu", &["layout", "film"]),
-    ("study", &["flatten", "cpu", "gpu", "film", "layout", "scene"]),
+    ("plot", &[]),
+    ("study", &["flatten", "cpu", "gpu", "film", "layout", "scene", "plot"]),
     ("selftest", &["kernel", "bvh", "layout", "film", "scene", "flatten", "cpu", "gpu"]),
 ];
 

@@ -3,10 +3,10 @@
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 
-use super::super::plot::{FONT_FAMILY, Figure, escape};
 use super::super::{Knob, Report, RowRecord};
 use super::table::{self, MARKS, Table};
 use super::{error_image_name, markdown};
+use crate::plot::{FONT_FAMILY, Figure, escape};
 
 /// Print and screen, light and plain.
 const STYLE: &str = "\

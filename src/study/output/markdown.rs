@@ -1,8 +1,8 @@
 //! The report as Markdown.
 
-use super::super::plot::Figure;
 use super::super::{Knob, Report};
 use super::table::{self, MARKS, Table, number, time};
+use crate::plot::Figure;
 
 /// The whole page.
 pub(super) fn page(report: &Report, figures: &[Figure]) -> String {

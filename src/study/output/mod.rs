@@ -8,10 +8,10 @@ mod table;
 use std::path::Path;
 
 use super::metrics::Seen;
-use super::plot::png_of;
 use super::store::Store;
 use super::{Report, StudyError, figures};
 use crate::film::{Metadata, difference_preview, encode_preview};
+use crate::plot::png_of;
 
 /// Write `study.csv`, `report.md`, `report.html` (self-contained) and each plot as SVG and PNG beside
 /// `study.json`, which is there already.

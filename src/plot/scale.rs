@@ -2,7 +2,7 @@
 
 /// An axis' range of values on its range of places.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in super::super) struct Scale {
+pub(crate) struct Scale {
     /// Least and greatest value.
     domain: [f64; 2],
     /// Where they lie.
@@ -12,7 +12,7 @@ pub(in super::super) struct Scale {
 
 /// How values are spread.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in super::super) enum Kind {
+pub(crate) enum Kind {
     Linear,
     Log,
     /// Logarithmic, with a place for 0 before its beginning.
@@ -21,10 +21,10 @@ pub(in super::super) enum Kind {
 
 /// A line across the axis.
 #[derive(Debug, Clone, PartialEq)]
-pub(in super::super) struct Tick {
-    pub(in super::super) value: f64,
+pub(crate) struct Tick {
+    pub(crate) value: f64,
     /// Empty for a minor tick.
-    pub(in super::super) label: String,
+    pub(crate) label: String,
 }
 
 /// The share of a logarithmic axis that is kept for 0.
@@ -36,7 +36,7 @@ impl Scale {
     /// A scale on which all values find a place, with a little room around them.
     ///
     /// Values ≤ 0 have no place on a logarithmic scale: they lie at its beginning.
-    pub(in super::super) fn around(values: impl Iterator<Item = f64>, range: [f64; 2], kind: Kind) -> Self {
+    pub(crate) fn around(values: impl Iterator<Item = f64>, range: [f64; 2], kind: Kind) -> Self {
         let fits = |v: &f64| v.is_finite() && (kind == Kind::Linear || *v > 0.0);
         let (mut low, mut high) =
             values.filter(fits).fold((f64::MAX, f64::MIN), |(low, high), v| (low.min(v), high.max(v)));
@@ -54,7 +54,7 @@ impl Scale {
     }
 
     /// Where a value lies; outside the domain at its end.
-    pub(in super::super) fn place(&self, value: f64) -> f64 {
+    pub(crate) fn place(&self, value: f64) -> f64 {
         let [low, high] = self.domain;
         let share = match self.kind {
             Kind::Linear => (value - low) / (high - low),
@@ -67,7 +67,7 @@ impl Scale {
     }
 
     /// Ticks in the domain.
-    pub(in super::super) fn ticks(&self) -> Vec<Tick> {
+    pub(crate) fn ticks(&self) -> Vec<Tick> {
         let mut ticks = match self.kind {
             Kind::Linear => self.linear_ticks(),
             Kind::Log | Kind::LogAndZero => self.log_ticks(),

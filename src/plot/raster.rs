@@ -5,13 +5,21 @@ use std::sync::{Arc, LazyLock};
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree, fontdb};
 
-use super::super::StudyError;
-
 /// A subset of Liberation Sans 2.1.5 (SIL Open Font License 1.1, beside the file), renamed as the licence asks.
 const FONT: &[u8] = include_bytes!("font/snellius-plot.ttf");
 
 /// Pixels a user unit: print at 300 dpi when a figure is 6 cm a panel wide.
 const ZOOM: f32 = 2.0;
+
+/// An SVG document that cannot be drawn in pixels.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot rasterise {name}: {reason}")]
+pub struct RasterError {
+    /// The drawing's file stem.
+    name: String,
+    /// Why not.
+    reason: String,
+}
 
 /// Loaded once.
 static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
@@ -24,9 +32,9 @@ static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
 /// The picture of an SVG document, twice as many pixels each way as it has user units.
 ///
 /// # Errors
-/// [`StudyError::Raster`] for a document that is none, or too large to be held.
-pub(in super::super) fn png_of(name: &str, svg: &str) -> Result<Vec<u8>, StudyError> {
-    let fault = |reason: String| StudyError::Raster { name: name.to_owned(), reason };
+/// [`RasterError`] for a document that is none, or too large to be held.
+pub(crate) fn png_of(name: &str, svg: &str) -> Result<Vec<u8>, RasterError> {
+    let fault = |reason: String| RasterError { name: name.to_owned(), reason };
     let options = Options { fontdb: FONTS.clone(), ..Options::default() };
     let tree = Tree::from_str(svg, &options).map_err(|error| fault(error.to_string()))?;
     let size = tree.size().to_int_size();

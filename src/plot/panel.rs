@@ -2,23 +2,23 @@
 
 use super::canvas::{Anchor, Canvas, Type, width_of};
 use super::labels::{Place, Taken};
-pub(in super::super) use super::scale::Kind;
+pub(crate) use super::scale::Kind;
 use super::scale::{Scale, Tick};
 use super::{BLACK, GREY};
 
 /// What an axis shows.
 #[derive(Debug, Clone)]
-pub(in super::super) struct Axis {
+pub(crate) struct Axis {
     /// The quantity and its unit.
-    pub(in super::super) label: String,
-    pub(in super::super) kind: Kind,
+    pub(crate) label: String,
+    pub(crate) kind: Kind,
     /// Whether numbers stand at the points instead of at round values.
-    pub(in super::super) at_points: bool,
+    pub(crate) at_points: bool,
 }
 
 /// How points are joined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in super::super) enum Line {
+pub(crate) enum Line {
     None,
     Solid,
     Dashed,
@@ -26,48 +26,48 @@ pub(in super::super) enum Line {
 
 /// How a point is marked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in super::super) enum Mark {
+pub(crate) enum Mark {
     Filled,
     Hollow,
 }
 
 /// A point with what is known of it.
 #[derive(Debug, Clone)]
-pub(in super::super) struct Point {
-    pub(in super::super) x: f64,
-    pub(in super::super) y: f64,
+pub(crate) struct Point {
+    pub(crate) x: f64,
+    pub(crate) y: f64,
     /// The interval of x.
-    pub(in super::super) span: Option<[f64; 2]>,
-    pub(in super::super) name: Option<String>,
-    pub(in super::super) mark: Mark,
+    pub(crate) span: Option<[f64; 2]>,
+    pub(crate) name: Option<String>,
+    pub(crate) mark: Mark,
 }
 
 /// Points that belong together.
 #[derive(Debug, Clone)]
-pub(in super::super) struct Series {
+pub(crate) struct Series {
     /// Written at its last point; empty for none.
-    pub(in super::super) name: String,
-    pub(in super::super) color: &'static str,
-    pub(in super::super) line: Line,
-    pub(in super::super) points: Vec<Point>,
+    pub(crate) name: String,
+    pub(crate) color: &'static str,
+    pub(crate) line: Line,
+    pub(crate) points: Vec<Point>,
 }
 
 /// A horizontal line with a name.
 #[derive(Debug, Clone)]
-pub(in super::super) struct Rule {
-    pub(in super::super) y: f64,
-    pub(in super::super) name: String,
+pub(crate) struct Rule {
+    pub(crate) y: f64,
+    pub(crate) name: String,
 }
 
 /// One plot.
 #[derive(Debug, Clone)]
-pub(in super::super) struct Panel {
-    pub(in super::super) title: String,
-    pub(in super::super) x: Axis,
-    pub(in super::super) y: Axis,
+pub(crate) struct Panel {
+    pub(crate) title: String,
+    pub(crate) x: Axis,
+    pub(crate) y: Axis,
     /// What comes first gets its names first.
-    pub(in super::super) series: Vec<Series>,
-    pub(in super::super) rules: Vec<Rule>,
+    pub(crate) series: Vec<Series>,
+    pub(crate) rules: Vec<Rule>,
 }
 
 /// Size of axis numbers and names, of axis titles, of the panel's title.

@@ -9,27 +9,28 @@ mod panel;
 mod raster;
 mod scale;
 
-pub(super) use canvas::{Canvas, FONT_FAMILY, escape};
-pub(super) use panel::{Axis, Kind, Line, Mark, Panel, Point, Rule, Series};
-pub(super) use raster::png_of;
+pub(crate) use canvas::{Anchor, Canvas, FONT_FAMILY, Type, escape};
+pub(crate) use panel::{Axis, Kind, Line, Mark, Panel, Point, Rule, Series};
+pub use raster::RasterError;
+pub(crate) use raster::png_of;
 
 /// Okabe and Ito's colours, told apart by all (Okabe and Ito 2008, "Color Universal Design"): black, orange,
 /// sky blue, bluish green, blue, vermillion, reddish purple.
-pub(super) const BLACK: &str = "#000000";
+pub(crate) const BLACK: &str = "#000000";
 /// See [`BLACK`].
-pub(super) const ORANGE: &str = "#e69f00";
+pub(crate) const ORANGE: &str = "#e69f00";
 /// See [`BLACK`].
-pub(super) const SKY: &str = "#56b4e9";
+pub(crate) const SKY: &str = "#56b4e9";
 /// See [`BLACK`].
-pub(super) const GREEN: &str = "#009e73";
+pub(crate) const GREEN: &str = "#009e73";
 /// See [`BLACK`].
-pub(super) const BLUE: &str = "#0072b2";
+pub(crate) const BLUE: &str = "#0072b2";
 /// See [`BLACK`].
-pub(super) const VERMILLION: &str = "#d55e00";
+pub(crate) const VERMILLION: &str = "#d55e00";
 /// See [`BLACK`].
-pub(super) const PURPLE: &str = "#cc79a7";
+pub(crate) const PURPLE: &str = "#cc79a7";
 /// For what stands in the background.
-pub(super) const GREY: &str = "#8a8a8a";
+pub(crate) const GREY: &str = "#8a8a8a";
 
 /// Width and height of a panel with its axes, in user units.
 const PANEL: [f64; 2] = [560.0, 420.0];
@@ -37,19 +38,19 @@ const PANEL: [f64; 2] = [560.0, 420.0];
 const GAP: f64 = 10.0;
 
 /// Panels side by side.
-pub(super) struct Figure {
+pub(crate) struct Figure {
     /// File stem.
-    pub(super) name: &'static str,
+    pub(crate) name: &'static str,
     /// What it shows, in a few words.
-    pub(super) title: String,
+    pub(crate) title: String,
     /// How to read it, in sentences.
-    pub(super) caption: String,
-    pub(super) panels: Vec<Panel>,
+    pub(crate) caption: String,
+    pub(crate) panels: Vec<Panel>,
 }
 
 impl Figure {
     /// The figure as an SVG document.
-    pub(super) fn svg(&self) -> String {
+    pub(crate) fn svg(&self) -> String {
         let count = self.panels.len().max(1) as f64;
         let size = [count * PANEL[0] + (count - 1.0) * GAP, PANEL[1]];
         let mut canvas = Canvas::new(size, &self.title);

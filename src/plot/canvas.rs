@@ -3,11 +3,11 @@
 use std::fmt::Write;
 
 /// The embedded font first; it has the widths of Helvetica and Arial, which stand in for it in a browser.
-pub(in super::super) const FONT_FAMILY: &str = "Snellius Plot, Liberation Sans, Arial, Helvetica, sans-serif";
+pub(crate) const FONT_FAMILY: &str = "Snellius Plot, Liberation Sans, Arial, Helvetica, sans-serif";
 
 /// Where a text is held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in super::super) enum Anchor {
+pub(crate) enum Anchor {
     /// At its first letter.
     Start,
     /// In its middle.
@@ -18,21 +18,21 @@ pub(in super::super) enum Anchor {
 
 /// How a text looks.
 #[derive(Debug, Clone, Copy)]
-pub(in super::super) struct Type {
-    pub(in super::super) size: f64,
-    pub(in super::super) color: &'static str,
-    pub(in super::super) anchor: Anchor,
-    pub(in super::super) bold: bool,
+pub(crate) struct Type {
+    pub(crate) size: f64,
+    pub(crate) color: &'static str,
+    pub(crate) anchor: Anchor,
+    pub(crate) bold: bool,
 }
 
 /// An SVG document in the making.
-pub(in super::super) struct Canvas {
+pub(crate) struct Canvas {
     text: String,
 }
 
 impl Canvas {
     /// An empty white sheet.
-    pub(in super::super) fn new([width, height]: [f64; 2], title: &str) -> Self {
+    pub(crate) fn new([width, height]: [f64; 2], title: &str) -> Self {
         let text = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" \
              height=\"{height}\" font-family=\"{FONT_FAMILY}\">\n<title>{}</title>\n\
@@ -43,7 +43,7 @@ impl Canvas {
     }
 
     /// A straight line; `dash` as in SVG, empty for none.
-    pub(in super::super) fn line(&mut self, a: [f64; 2], b: [f64; 2], color: &str, width: f64, dash: &str) {
+    pub(crate) fn line(&mut self, a: [f64; 2], b: [f64; 2], color: &str, width: f64, dash: &str) {
         self.put(format_args!(
             "<line x1=\"{:.2}\" y1=\"{:.2}\" x2=\"{:.2}\" y2=\"{:.2}\" stroke=\"{color}\" stroke-width=\"{width}\"{}/>",
             a[0], a[1], b[0], b[1], dashes(dash)
@@ -51,7 +51,7 @@ impl Canvas {
     }
 
     /// A line through points.
-    pub(in super::super) fn polyline(&mut self, points: &[[f64; 2]], color: &str, width: f64, dash: &str) {
+    pub(crate) fn polyline(&mut self, points: &[[f64; 2]], color: &str, width: f64, dash: &str) {
         let mut list = String::new();
         for [x, y] in points {
             // Writing to a string cannot fail.
@@ -66,7 +66,7 @@ impl Canvas {
     }
 
     /// A closed shape.
-    pub(in super::super) fn polygon(&mut self, points: &[[f64; 2]], fill: &str, stroke: &str, width: f64) {
+    pub(crate) fn polygon(&mut self, points: &[[f64; 2]], fill: &str, stroke: &str, width: f64) {
         let list: Vec<_> = points.iter().map(|[x, y]| format!("{x:.2},{y:.2}")).collect();
         self.put(format_args!(
             "<polygon points=\"{}\" fill=\"{fill}\" stroke=\"{stroke}\" stroke-width=\"{width}\"/>",
@@ -75,19 +75,19 @@ impl Canvas {
     }
 
     /// A disc.
-    pub(in super::super) fn circle(&mut self, [x, y]: [f64; 2], radius: f64, fill: &str, stroke: &str) {
+    pub(crate) fn circle(&mut self, [x, y]: [f64; 2], radius: f64, fill: &str, stroke: &str) {
         self.put(format_args!(
             "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius}\" fill=\"{fill}\" stroke=\"{stroke}\" stroke-width=\"1.5\"/>"
         ));
     }
 
     /// A text on one line. A `^` begins a superscript that goes on to its end.
-    pub(in super::super) fn text(&mut self, [x, y]: [f64; 2], text: &str, style: Type) {
+    pub(crate) fn text(&mut self, [x, y]: [f64; 2], text: &str, style: Type) {
         self.turned_text([x, y], text, style, 0.0);
     }
 
     /// A text turned about its anchor, clockwise in degrees.
-    pub(in super::super) fn turned_text(&mut self, [x, y]: [f64; 2], text: &str, style: Type, degrees: f64) {
+    pub(crate) fn turned_text(&mut self, [x, y]: [f64; 2], text: &str, style: Type, degrees: f64) {
         let anchor = match style.anchor {
             Anchor::Start => "start",
             Anchor::Middle => "middle",
@@ -115,7 +115,7 @@ impl Canvas {
     }
 
     /// The document.
-    pub(in super::super) fn finish(mut self) -> String {
+    pub(crate) fn finish(mut self) -> String {
         self.text.push_str("</svg>\n");
         self.text
     }
@@ -130,7 +130,7 @@ fn dashes(dash: &str) -> String {
 }
 
 /// A text for XML and HTML.
-pub(in super::super) fn escape(text: &str) -> String {
+pub(crate) fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
