@@ -4,7 +4,9 @@ import package::real::{real, vec3r, least, greatest};
 import package::triangle::{Shear, shear_of, intersect_triangle};
 import package::records::Triangle;
 import package::bindings::{frame, nodes, triangles};
-import package::constants::{BVH_STACK, FAR, LEAST_DIRECTION, LOOP_STEPS, NODE_STEPS, NONE, SLAB_PADDING};
+import package::constants::{
+    BVH_STACK, FAR, LEAST_DIRECTION, LOOP_STEPS, NODE_STEPS, NONE, ORIGIN_PADDING, SLAB_PADDING,
+};
 
 // A ray, prepared for boxes and triangles.
 struct Ray {
@@ -43,7 +45,7 @@ fn make_ray(origin: vec3r, direction: vec3r) -> Ray {
     let to_lo = abs(origin - vec3r(frame.view.scene_lo));
     let to_hi = abs(origin - vec3r(frame.view.scene_hi));
     let reach = greatest(to_lo.x, to_hi.x) + greatest(to_lo.y, to_hi.y) + greatest(to_lo.z, to_hi.z);
-    let delta = vec3r(reach * SLAB_PADDING);
+    let delta = abs(origin) * ORIGIN_PADDING + vec3r(reach * SLAB_PADDING);
     let reciprocal =
         vec3r(safe_reciprocal(direction.x), safe_reciprocal(direction.y), safe_reciprocal(direction.z));
     return Ray(origin, direction, reciprocal, origin + delta, origin - delta, shear_of(direction));

@@ -12,3 +12,4 @@ pub mod plot;
 pub mod scene;
 pub mod selftest;
 pub mod study;
+pub mod trace;

@@ -8,6 +8,7 @@ use crate::cpu::CpuError;
 use crate::film::{DifferenceError, EncodeError, LoadError, OutputError};
 use crate::gpu::GpuError;
 use crate::scene::{Diagnostic, SceneError};
+use crate::selftest::DeviceError;
 use crate::study::StudyError;
 
 /// How a command that met no error ended.
@@ -71,6 +72,16 @@ impl From<StudyError> for CliError {
             StudyError::Cpu(error) => Self::Cpu(error),
             StudyError::Gpu(error) => Self::Gpu(error),
             other => Self::Study(other),
+        }
+    }
+}
+
+impl From<DeviceError> for CliError {
+    fn from(error: DeviceError) -> Self {
+        match error {
+            DeviceError::Cpu(error) => Self::Cpu(error),
+            DeviceError::Gpu(error) => Self::Gpu(error),
+            DeviceError::Scene(error) => Self::Scene(error),
         }
     }
 }

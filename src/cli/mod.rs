@@ -1,6 +1,6 @@
 //! The command line: raw arguments, then a typed configuration, then the run; one file a command.
 //!
-//! Errors travel up as values and are printed here, once. Exit codes: 0 done; 1 a comparison failed;
+//! Errors travel up as values and are printed here, once. Exit codes: 0 done; 1 a comparison or case failed;
 //! 2 usage, scene or file error; 3 no such device; 4 device lost; 130 interrupted by Ctrl-C.
 
 mod check;
@@ -12,7 +12,9 @@ mod error;
 mod prepare;
 mod progress;
 mod render;
+mod selftest;
 mod study;
+mod trace;
 mod values;
 mod view;
 
@@ -41,7 +43,7 @@ Examples:
   snellius check scenes/ice.toml
   snellius help render
 
-Exit codes: 0 done; 1 a comparison failed; 2 usage, scene or file error; 3 no such device;
+Exit codes: 0 done; 1 a comparison or case failed; 2 usage, scene or file error; 3 no such device;
 4 device lost; 130 interrupted by Ctrl-C.
 Environment: WGPU_BACKEND, WGPU_ADAPTER_NAME, RAYON_NUM_THREADS, NO_COLOR, RUST_LOG."
 )]
@@ -63,6 +65,8 @@ enum Command {
     Devices(devices::DevicesArgs),
     Diff(diff::DiffArgs),
     Study(study::StudyArgs),
+    Trace(trace::TraceArgs),
+    Selftest(selftest::SelftestArgs),
     /// A scene, or a mistake.
     #[command(external_subcommand)]
     Scene(Vec<OsString>),
@@ -92,6 +96,8 @@ fn run(cli: Cli, console: Console) -> Result<Outcome, CliError> {
         Some(Command::Devices(args)) => devices::run(&args, console),
         Some(Command::Diff(args)) => diff::run(args, console),
         Some(Command::Study(args)) => study::run(args, console),
+        Some(Command::Trace(args)) => trace::run(&args, console),
+        Some(Command::Selftest(args)) => selftest::run(&args, console),
         Some(Command::Scene(words)) => Err(view::no_viewer(&words)),
         None => {
             console::print(&Cli::command().render_help().to_string())?;

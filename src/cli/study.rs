@@ -8,7 +8,7 @@ use super::device::cpu_name;
 use super::progress::StudyProgress;
 use super::values::{ProgressStyle, Size, number_in, whole_in};
 use super::{CliError, Outcome};
-use crate::gpu::adapters;
+use crate::gpu::{AdapterReport, GpuError, adapters};
 use crate::layout::constants::MAX_DEPTH;
 use crate::study::{self, Config, Knob, Report, StudyError, write_outputs};
 
@@ -40,12 +40,15 @@ pub(super) struct StudyArgs {
     /// The baseline's least weight of a traced ray, 0 to 1 [default: the scene's]
     #[arg(long, value_name = "W", value_parser = |text: &str| number_in(text, 0.0, 1.0))]
     cutoff: Option<f64>,
-    /// What to change: depth, cutoff, samples, precision, intersector, tessellation, device [default: all]
+    /// What to change: depth, cutoff, samples, precision, intersector, tessellation, effects, device [default: all]
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = knob)]
     knobs: Vec<Knob>,
     /// About how long it may take, in seconds: what does not fit is left out, and said to be
     #[arg(long, value_name = "SECONDS", default_value = "270", value_parser = |text: &str| whole_in(text, 1, 1_000_000))]
     budget: u32,
+    /// Compare only with adapters of which this is part of the name [default: all]
+    #[arg(long, value_name = "NAME")]
+    adapter: Option<String>,
     /// Begin anew even if the folder holds an unfinished study
     #[arg(long)]
     fresh: bool,
@@ -71,7 +74,7 @@ pub(super) fn run(args: StudyArgs, console: Console) -> Result<Outcome, CliError
         size: args.size.map(|size| size.0),
         depth: args.depth,
         cutoff: args.cutoff.map(|cutoff| cutoff as f32),
-        adapters: if knobs.contains(&Knob::Device) { adapters() } else { Vec::new() },
+        adapters: if knobs.contains(&Knob::Device) { named(args.adapter)? } else { Vec::new() },
         knobs,
         budget: Duration::from_secs(args.budget.into()),
         fresh: args.fresh,
@@ -100,6 +103,17 @@ pub(super) fn run(args: StudyArgs, console: Console) -> Result<Outcome, CliError
     }
     console.note(format!("{}: report.html, report.md, study.csv, study.json, plots", folder.display()));
     Ok(outcome(&report))
+}
+
+/// The adapters of that name, or all.
+fn named(name: Option<String>) -> Result<Vec<AdapterReport>, CliError> {
+    let (found, others): (Vec<_>, Vec<_>) =
+        adapters().into_iter().partition(|adapter| name.as_ref().is_none_or(|part| adapter.is_called(part)));
+    if found.is_empty() && name.is_some() {
+        let found = others.into_iter().map(|adapter| adapter.name).collect();
+        return Err(GpuError::NoAdapter { wanted: name, found }.into());
+    }
+    Ok(found)
 }
 
 /// `ice-study` for `scenes/ice.toml`, in the current folder.

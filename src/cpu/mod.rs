@@ -9,8 +9,8 @@ use rayon::prelude::*;
 
 use crate::film::{Frame, Progress, RayCounts, Renderer, TraceTimes};
 use crate::kernel::whitted::{Branch, trace_pixel};
-use crate::kernel::{Real, World};
-use crate::layout::{Aov, FlatScene, Float, Precision, Settings, Texel, View};
+use crate::kernel::{Real, Simulation, World};
+use crate::layout::{Aov, FlatScene, Float, Precision, Scan, Settings, Texel, View};
 
 /// Side of a tile in pixels: small enough to balance the end of a frame, large enough to amortise its bookkeeping.
 const TILE: u32 = 16;
@@ -26,6 +26,8 @@ pub struct CpuError {
 /// Traces a scene on the CPU. The picture does not depend on the number of threads.
 pub struct CpuRenderer<'a> {
     scene: &'a FlatScene,
+    /// What the scene calls for.
+    scan: Scan,
     pool: rayon::ThreadPool,
 }
 
@@ -39,7 +41,7 @@ impl<'a> CpuRenderer<'a> {
             .num_threads(threads)
             .build()
             .map_err(|source| CpuError { threads, source })?;
-        Ok(Self { scene, pool })
+        Ok(Self { scene, scan: Scan::of(scene), pool })
     }
 
     /// How many threads trace.
@@ -58,7 +60,10 @@ impl Renderer for CpuRenderer<'_> {
         settings: &Settings,
         progress: &dyn Progress,
     ) -> Result<Frame, CpuError> {
-        let world = World { scene: self.scene, view, intersector: settings.intersector };
+        let plan = self.scan.effects(settings).plan(settings);
+        let view = &plan.applied_to(view);
+        let world =
+            World { scene: self.scene, view, intersector: settings.intersector, effects: plan.effects };
         Ok(self.pool.install(|| match settings.precision {
             Precision::F32 => render::<f32>(&world, settings, progress),
             Precision::F64 => render::<f64>(&world, settings, progress),
@@ -76,7 +81,7 @@ struct Tile {
     rays: [u64; 4],
 }
 
-fn render<R: Real>(world: &World, settings: &Settings, progress: &dyn Progress) -> Frame {
+fn render<R: Real>(world: &World<impl Simulation>, settings: &Settings, progress: &dyn Progress) -> Frame {
     let [_, _, width, height] = world.view.crop;
     let pixels = width as usize * height as usize;
     let frame = Mutex::new(Frame {
@@ -115,7 +120,12 @@ fn render<R: Real>(world: &World, settings: &Settings, progress: &dyn Progress) 
     frame
 }
 
-fn trace_tile<R: Real>(world: &World, stack: &mut Vec<Branch<R>>, column: u32, row: u32) -> Tile {
+fn trace_tile<R: Real>(
+    world: &World<impl Simulation>,
+    stack: &mut Vec<Branch<R>>,
+    column: u32,
+    row: u32,
+) -> Tile {
     let [left, top, width, height] = world.view.crop;
     let (x, y) = (column * TILE, row * TILE);
     let (w, h) = (TILE.min(width - x), TILE.min(height - y));

@@ -22,6 +22,7 @@ mod buffers;
 mod context;
 mod error;
 mod film;
+mod float_controls;
 mod job;
 mod locate;
 mod pace;
@@ -32,15 +33,18 @@ mod render;
 mod sources;
 mod spirv;
 mod testing;
+mod tree;
 mod variant;
 
 pub use adapters::{AdapterKind, AdapterReport, adapters};
 pub use assemble::{Shader, Source, assemble};
 pub use error::GpuError;
+pub use float_controls::{FloatControls, Promises};
 pub use probe::Prober;
 pub use render::GpuRenderer;
 pub use sources::SOURCES;
 pub use spirv::write_spirv;
+pub use tree::GpuTree;
 pub use variant::Variant;
 
 /// Which adapter to take.

@@ -10,9 +10,9 @@ use super::film::FilmBuffer;
 use super::job::Job;
 use super::pace::Pace;
 use super::pipeline::Compiled;
-use super::{AdapterReport, GpuError, GpuOptions, SOURCES, Variant, pipeline};
+use super::{AdapterReport, GpuError, GpuOptions, SOURCES, Source, Variant, pipeline};
 use crate::film::{Frame, Progress, RayCounts, Renderer, TraceTimes};
-use crate::layout::{FlatScene, Float, Settings, Tile, View};
+use crate::layout::{FlatScene, Float, Plan, Scan, Settings, Tile, View};
 
 /// File and name of the entry point.
 const ENTRY: (&str, &str) = ("render", "render");
@@ -20,8 +20,12 @@ const ENTRY: (&str, &str) = ("render", "render");
 /// A scene on an adapter.
 pub struct GpuRenderer {
     context: Context,
+    sources: &'static [Source<'static>],
     scene: SceneBuffers,
+    /// Of the deepest tree so far: its stack serves the others.
     bvh_depth: u32,
+    /// What the scene calls for.
+    scan: Scan,
     /// What the upload took, until a frame has told it.
     upload: Duration,
     pipelines: HashMap<Variant, Compiled>,
@@ -35,13 +39,27 @@ impl GpuRenderer {
     /// [`GpuError::NoAdapter`], [`GpuError::TooLarge`] (checked before anything is uploaded),
     /// [`GpuError::Refused`], [`GpuError::OutOfMemory`], [`GpuError::DeviceLost`].
     pub fn new(scene: &FlatScene, options: &GpuOptions) -> Result<Self, GpuError> {
+        Self::with_sources(scene, options, SOURCES)
+    }
+
+    /// The same with other shader files than the program's own: for tests that plant faults in them.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_sources(
+        scene: &FlatScene,
+        options: &GpuOptions,
+        sources: &'static [Source<'static>],
+    ) -> Result<Self, GpuError> {
         let context = Context::new(options)?;
         let start = Instant::now();
         let buffers = SceneBuffers::new(&context, scene)?;
         Ok(Self {
             context,
+            sources,
             scene: buffers,
             bvh_depth: scene.bvh_depth,
+            scan: Scan::of(scene),
             upload: start.elapsed(),
             pipelines: HashMap::new(),
             film: None,
@@ -54,28 +72,58 @@ impl GpuRenderer {
         &self.context.adapter
     }
 
+    /// Put another scene in place of this one. What was compiled is kept, unless the new scene's tree is deeper.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`], [`GpuError::OutOfMemory`], [`GpuError::DeviceLost`].
+    pub fn show(&mut self, scene: &FlatScene) -> Result<(), GpuError> {
+        let start = Instant::now();
+        self.scene = SceneBuffers::new(&self.context, scene)?;
+        self.bvh_depth = self.bvh_depth.max(scene.bvh_depth);
+        self.scan = Scan::of(scene);
+        self.upload = start.elapsed();
+        Ok(())
+    }
+
+    /// What is simulated under these settings.
+    fn plan(&self, settings: &Settings) -> Plan {
+        self.scan.effects(settings).plan(settings)
+    }
+
     /// The variant for these settings: fast where the adapter cannot be strict.
     fn variant(&self, settings: &Settings) -> Variant {
-        let variant = Variant::new(self.bvh_depth, settings);
+        let variant = self.variant_of(settings, &self.plan(settings));
         let float = if self.context.adapter.strict_float { variant.float } else { Float::Fast };
         Variant { float, ..variant }
     }
 
+    /// The variant of a plan, as strict as the settings ask.
+    pub(super) fn variant_of(&self, settings: &Settings, plan: &Plan) -> Variant {
+        Variant::new(self.bvh_depth, settings, plan)
+    }
+
     /// Compile the variant, make room for the picture and take it in view.
-    fn prepare(&mut self, view: &View, variant: &Variant) -> Result<Job<'_>, GpuError> {
+    pub(super) fn prepare(&mut self, view: &View, variant: &Variant) -> Result<Job<'_>, GpuError> {
         let (compiled, is_new) = self.pipeline(variant)?;
         // As many rows as fit one buffer.
         let [_, _, width, height] = view.crop;
         let blocks = Blocks::new(width, height);
         let limit = self.context.largest_binding();
-        let most_pixels = FilmBuffer::most_pixels(limit, compiled.texels_at, variant.aovs);
+        let most_pixels = FilmBuffer::most_pixels(limit, compiled.texels_at, variant.aovs());
         let band_height = blocks.band_height(most_pixels);
         let pixels = u64::from(width) * u64::from(band_height);
-        let film = self.film(compiled.texels_at, pixels, variant.aovs)?;
+        let film = self.film(compiled.texels_at, pixels, variant.aovs())?;
         self.scene.set_view(&self.context, view);
         let group = self.scene.bind(&self.context, &film.buffer);
-        let job =
-            Job { context: &self.context, pipeline: compiled.pipeline, film, group, blocks, band_height };
+        let job = Job {
+            context: &self.context,
+            pipeline: compiled.pipeline,
+            film,
+            group,
+            blocks,
+            band_height,
+            tree_at: compiled.tree_at,
+        };
         if is_new {
             // Some drivers compile at the first dispatch: have one outside the picture.
             job.submit(Tile { first_block: blocks.count(), block_count: 1, ..Tile::default() })?;
@@ -97,7 +145,7 @@ impl GpuRenderer {
         if let Some(pipeline) = self.pipelines.get(variant) {
             return Ok((pipeline.clone(), false));
         }
-        let pipeline = pipeline::compile(&self.context, &self.scene.layout, SOURCES, ENTRY, variant)?;
+        let pipeline = pipeline::compile(&self.context, &self.scene.layout, self.sources, ENTRY, variant)?;
         self.pipelines.insert(*variant, pipeline.clone());
         Ok((pipeline, true))
     }
@@ -121,6 +169,7 @@ impl Renderer for GpuRenderer {
         let start = Instant::now();
         let upload = std::mem::take(&mut self.upload);
         let variant = self.variant(settings);
+        let view = &self.plan(settings).applied_to(view);
         let job = self.prepare(view, &variant)?;
         let blocks = job.blocks;
         let times = TraceTimes { upload, compile: start.elapsed(), ..TraceTimes::default() };
@@ -128,7 +177,7 @@ impl Renderer for GpuRenderer {
             width: blocks.width,
             height: blocks.height,
             texels: Vec::new(),
-            aovs: variant.aovs.then(Vec::new),
+            aovs: variant.aovs().then(Vec::new),
             float: variant.float,
             rays: RayCounts::default(),
             times,

@@ -160,6 +160,7 @@ impl Drawing<'_> {
             let style = Type { size: SMALL, color: "#5a5a5a", anchor: Anchor::End, bold: false };
             canvas.text([right - 4.0, base], &rule.name, style);
             taken.take([right - 4.0 - width, base - SMALL, right, base + 4.0]);
+            taken.take([left, at - 1.0, right, at + 1.0]);
         }
     }
 
@@ -189,6 +190,7 @@ impl Drawing<'_> {
             for point in &series.points {
                 let at = self.place(point);
                 if let Some([low, high]) = point.span {
+                    taken.take([self.x.place(low), at[1] - 2.0, self.x.place(high), at[1] + 2.0]);
                     canvas.line(
                         [self.x.place(low), at[1]],
                         [self.x.place(high), at[1]],

@@ -10,6 +10,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec2, DVec3};
 
 mod camera;
+mod code;
 mod color;
 mod default_view;
 mod diagnostic;
@@ -19,6 +20,7 @@ mod documentation;
 mod error;
 mod fault;
 mod illumination;
+mod limits;
 mod load;
 mod material;
 mod model;
@@ -38,6 +40,7 @@ mod triple;
 pub use color::linear_from_srgb8;
 pub use diagnostic::{Diagnostic, Location, Severity};
 pub use error::SceneError;
+pub use limits::Limits;
 
 /// A validated scene: every number finite and in range, every file read and decoded.
 #[derive(Debug, Clone)]

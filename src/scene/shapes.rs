@@ -40,6 +40,18 @@ impl Shape {
         self
     }
 
+    /// How many triangles its mesh has.
+    pub(super) fn triangles(&self) -> usize {
+        match self {
+            Shape::Sphere(table) => 8 << (2 * table.level.0),
+            Shape::Box(_) => 12,
+            Shape::RoundedBox(table) => 12 * ((2 << table.level.0) + 1_usize).pow(2),
+            Shape::Plane(_) => 2,
+            Shape::Cylinder(table) => 16 << table.level.0,
+            Shape::Torus(table) => 64 << (2 * table.level.0),
+        }
+    }
+
     /// Tessellate; all triangles have material 0.
     ///
     /// # Errors
@@ -71,8 +83,12 @@ mod tests {
         shape: Shape,
     }
 
-    fn mesh(shape: &str) -> Result<Mesh, Diagnostic> {
-        toml::from_str::<Document>(&format!("shape = {{ {shape} }}")).unwrap().shape.mesh()
+    fn shape(shape: &str) -> Shape {
+        toml::from_str::<Document>(&format!("shape = {{ {shape} }}")).unwrap().shape
+    }
+
+    fn mesh(text: &str) -> Result<Mesh, Diagnostic> {
+        shape(text).mesh()
     }
 
     /// Signed volume by the divergence theorem.
@@ -102,6 +118,17 @@ mod tests {
         ("torus = { major = 2, minor = 0.5, level = 0 }", 64, 5.657),
         ("torus = { major = 2, minor = 0.5, level = 5 }", 65536, PI * PI),
     ];
+
+    #[test]
+    fn the_number_of_triangles_is_known_before_they_are_made() {
+        let plane = ("plane = { size = [1, 1] }", 2, 0.0);
+        for (text, triangles, _) in SOLIDS.into_iter().chain([plane]) {
+            assert_eq!(
+                (shape(text).triangles(), mesh(text).unwrap().triangles.len()),
+                (triangles, triangles)
+            );
+        }
+    }
 
     #[test]
     fn solids_are_closed_outward_and_of_the_right_volume() {

@@ -6,12 +6,22 @@
 //! (tests/selftest).
 
 mod case;
+mod cases;
+mod cpu;
 mod device;
+mod gpu;
+mod paper;
+mod paths;
+mod props;
+mod random;
+mod rays;
+pub mod solids;
 mod stage;
 
 pub use case::{Bound, Case, Effort, Finding, Verdict};
-pub use device::{Answered, Device, DeviceError, Escape, Leave, Left, Walk, Walked};
+pub use cases::CASES;
+pub use cpu::CpuDevice;
+pub use device::{Answered, Bend, Bent, Device, DeviceError, Ending, Escape, Leave, Left, Walk, Walked};
+pub use gpu::GpuDevice;
+pub use random::Random;
 pub use stage::Stage;
-
-/// Every case, in the order of tables.
-pub const CASES: &[Case] = &[];

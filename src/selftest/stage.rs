@@ -2,6 +2,7 @@
 
 use super::DeviceError;
 use crate::flatten;
+use crate::layout::constants::NONE;
 use crate::layout::{FlatScene, Settings, View};
 use crate::scene::Scene;
 
@@ -32,5 +33,21 @@ impl Stage {
         };
         let view = flatten::view(&scene.camera, &flat, render.size, None, &settings);
         Ok(Self { flat, view, settings })
+    }
+
+    /// Where each triangle lies in [`FlatScene::triangles`], by primitive id.
+    #[must_use]
+    pub fn places(&self) -> Vec<u32> {
+        let mut places = vec![NONE; self.flat.attributes.len()];
+        for (index, triangle) in self.flat.triangles.iter().enumerate() {
+            places[triangle.id as usize] = index as u32;
+        }
+        places
+    }
+
+    /// The view for other settings than the scene's own.
+    #[must_use]
+    pub fn view_for(&self, settings: &Settings) -> View {
+        View { depth: settings.depth, cutoff: settings.cutoff, samples: settings.samples, ..self.view }
     }
 }

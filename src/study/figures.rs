@@ -3,8 +3,8 @@
 use super::pareto::front;
 use super::{Certificate, Knob, Report, RowRecord, Truth};
 use crate::plot::{
-    Axis, BLACK, BLUE, Figure, GREEN, Kind, Line, Mark, ORANGE, PURPLE, Panel, Point, Rule, SKY, Series,
-    VERMILLION,
+    Axis, BLACK, BLUE, Figure, GREEN, GREY, Kind, Line, Mark, ORANGE, PURPLE, Panel, Point, Rule, SKY,
+    Series, VERMILLION,
 };
 
 /// All plots that the report has figures for.
@@ -21,6 +21,7 @@ fn color(knob: Option<Knob>) -> &'static str {
         Some(Knob::Samples) => GREEN,
         Some(Knob::Precision) => PURPLE,
         Some(Knob::Intersector) => SKY,
+        Some(Knob::Effects) => GREY,
         Some(Knob::Tessellation | Knob::Device) => ORANGE,
     }
 }
@@ -34,7 +35,7 @@ pub(super) fn name_of(row: &RowRecord) -> String {
         Some(Knob::Depth) => format!("depth {}", row.label),
         Some(Knob::Cutoff) => format!("cut-off {}", row.label),
         Some(Knob::Tessellation) => format!("solids {}", row.label),
-        Some(Knob::Precision | Knob::Intersector | Knob::Device) => row.label.clone(),
+        Some(Knob::Precision | Knob::Intersector | Knob::Effects | Knob::Device) => row.label.clone(),
     }
 }
 
@@ -131,13 +132,11 @@ fn uncertainty(report: &Report, truth: Truth) -> Vec<Rule> {
 
 /// True error and certified bound against depth and cut-off.
 fn truncation(report: &Report) -> Option<Figure> {
-    let panels: Vec<_> = [
-        (Knob::Depth, "depth of the ray tree", Kind::Log),
-        (Knob::Cutoff, "least weight of a traced ray", Kind::LogAndZero),
-    ]
-    .into_iter()
-    .filter_map(|(knob, label, kind)| truncation_panel(report, knob, label, kind))
-    .collect();
+    let panels: Vec<_> =
+        [(Knob::Depth, "depth of the ray tree"), (Knob::Cutoff, "least weight of a traced ray")]
+            .into_iter()
+            .filter_map(|(knob, label)| truncation_panel(report, knob, label))
+            .collect();
     (!panels.is_empty()).then(|| Figure {
         name: "truncation",
         title: "Truncation: certified bound and true error".to_owned(),
@@ -149,7 +148,7 @@ fn truncation(report: &Report) -> Option<Figure> {
     })
 }
 
-fn truncation_panel(report: &Report, knob: Knob, label: &str, kind: Kind) -> Option<Panel> {
+fn truncation_panel(report: &Report, knob: Knob, label: &str) -> Option<Panel> {
     let rows: Vec<(f64, Certificate)> = report
         .rows_of(knob)
         .into_iter()
@@ -158,6 +157,8 @@ fn truncation_panel(report: &Report, knob: Knob, label: &str, kind: Kind) -> Opt
     if rows.len() < 2 {
         return None;
     }
+    // A place for nothing only where there is one.
+    let kind = if rows.iter().any(|(x, _)| *x <= 0.0) { Kind::LogAndZero } else { Kind::Log };
     type Pick = fn(&Certificate) -> f64;
     let lines: [(&str, &'static str, Line, Pick); 4] = [
         ("bound, greatest", VERMILLION, Line::Dashed, |c| c.bound_max),
@@ -215,7 +216,7 @@ fn sampling(report: &Report) -> Option<Figure> {
         y: log("RMSE, linear RGB in [0, 1]"),
         series: vec![
             series("true error", GREEN, Line::Solid, errors),
-            series("random samples: 1/√n", "#8a8a8a", Line::Dashed, guide),
+            series("random samples: 1/√n", GREY, Line::Dashed, guide),
         ],
         rules: uncertainty(report, Truth::Sampling),
     };
@@ -229,9 +230,10 @@ fn sampling(report: &Report) -> Option<Figure> {
     Some(Figure {
         name: "sampling",
         title: "Samples per pixel".to_owned(),
-        caption: "A low-discrepancy sequence gains more from each sample than random ones would. The first samples \
-                  of the reference are those of the rows, so that with half as many the error is its uncertainty."
-            .to_owned(),
+        caption:
+            "Dashed: how the error of independent samples would fall. The first samples of the reference are \
+                  those of the rows, so that with half as many the error is about its uncertainty."
+                .to_owned(),
         panels: vec![error_panel, time_panel],
     })
 }

@@ -18,19 +18,22 @@ pub enum Knob {
     Intersector,
     /// Levels of the built-in solids.
     Tessellation,
+    /// What is simulated: everything, or without one of the effects that the scene calls for.
+    Effects,
     /// Which device traces, with how many threads, and how strictly.
     Device,
 }
 
 impl Knob {
     /// All of them, in the order of tables.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Depth,
         Self::Cutoff,
         Self::Samples,
         Self::Precision,
         Self::Intersector,
         Self::Tessellation,
+        Self::Effects,
         Self::Device,
     ];
 
@@ -44,6 +47,7 @@ impl Knob {
             Self::Precision => "precision",
             Self::Intersector => "intersector",
             Self::Tessellation => "tessellation",
+            Self::Effects => "effects",
             Self::Device => "device",
         }
     }
@@ -58,6 +62,7 @@ impl Knob {
             Self::Precision => "Precision",
             Self::Intersector => "Ray–triangle test",
             Self::Tessellation => "Tessellation of the built-in solids",
+            Self::Effects => "Effects",
             Self::Device => "Device",
         }
     }
@@ -68,7 +73,7 @@ impl Knob {
         match self {
             Self::Depth | Self::Cutoff => Truth::Truncation,
             Self::Samples => Truth::Sampling,
-            Self::Precision | Self::Intersector | Self::Device => Truth::Arithmetic,
+            Self::Precision | Self::Intersector | Self::Effects | Self::Device => Truth::Arithmetic,
             Self::Tessellation => Truth::Tessellation,
         }
     }

@@ -7,6 +7,7 @@
 //!
 //! Errors are those of linear RGB clamped to [0, 1]: what a display without tone mapping can show.
 
+mod budget;
 mod certificate;
 mod error;
 mod figures;
@@ -22,6 +23,7 @@ mod run;
 mod store;
 mod timing;
 
+pub use budget::{Choice, Goal, choose};
 pub use certificate::Certificate;
 pub use error::StudyError;
 pub use knob::{Knob, Truth};

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Knob;
 use crate::gpu::AdapterReport;
-use crate::layout::{Float, Intersector, Precision, Settings};
+use crate::layout::{EffectChoice, EffectSet, Float, Intersector, Precision, Settings};
 
 /// Depths that are tried.
 const DEPTHS: [u32; 6] = [1, 2, 4, 8, 16, 32];
@@ -84,6 +84,8 @@ pub(super) struct Plan<'a> {
     pub(super) steps: &'a [i32],
     /// Adapters to compare with.
     pub(super) adapters: &'a [AdapterReport],
+    /// What the scene calls for.
+    pub(super) effects: EffectSet,
 }
 
 impl Plan<'_> {
@@ -120,6 +122,7 @@ impl Plan<'_> {
                 .map(|test| self.named(knob, intersector_name(test), Settings { intersector: test, ..base }))
                 .into(),
             Knob::Tessellation => self.tessellations(),
+            Knob::Effects => self.effects(),
             Knob::Device => self.devices(),
         }
     }
@@ -146,6 +149,18 @@ impl Plan<'_> {
             setup: Setup { steps, ..self.baseline_setup() },
         };
         self.steps.iter().filter(|steps| STEPS.contains(steps)).map(row).collect()
+    }
+
+    /// The general kernel, then the scene's own without each of its effects and those that need it.
+    fn effects(&self) -> Vec<Row> {
+        let base = self.baseline.settings;
+        let row = |label: String, effects| self.named(Knob::Effects, &label, Settings { effects, ..base });
+        let without = |effect| {
+            let left = EffectChoice::Only(self.effects.without(effect).pruned());
+            row(format!("without {effect}"), left)
+        };
+        let general = row("general kernel".to_owned(), EffectChoice::All);
+        std::iter::once(general).chain(self.effects.iter().map(without)).collect()
     }
 
     /// One thread, all threads, and each adapter strict (where it can) and fast.
@@ -213,11 +228,13 @@ pub(super) fn intersector_name(intersector: Intersector) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::layout::Effect;
 
     fn rows(knobs: &[Knob], steps: &[i32]) -> Vec<Row> {
         let settings = Settings { depth: 16, cutoff: 1e-3, ..Settings::default() };
         let baseline = Baseline { size: [64, 48], settings };
-        Plan { baseline: &baseline, knobs, steps, adapters: &[] }.rows()
+        let effects = EffectSet::of(&[Effect::Shadows, Effect::Reflection]);
+        Plan { baseline: &baseline, knobs, steps, adapters: &[], effects }.rows()
     }
 
     #[test]
@@ -234,6 +251,7 @@ mod tests {
                 a.intersector != b.intersector,
                 row.setup.target != base.target,
                 row.setup.steps != base.steps,
+                a.effects != b.effects,
             ];
             assert_eq!(changes.iter().filter(|&&changed| changed).count(), 1, "{}", row.id());
         }

@@ -94,7 +94,7 @@ pub(super) fn truncation(
 /// The tree of depth 64 at the least cut-off that fits the time: rung after rung, until the next would be too
 /// long or nothing is cut any more. `coarse` is the picture to compare the first rung with.
 pub(super) fn whole(
-    lab: &mut Lab,
+    shoot: &mut dyn FnMut(&Setup, Duration) -> Result<Option<Shot>, StudyError>,
     base: Settings,
     coarse: &Seen,
     limit: Duration,
@@ -111,7 +111,7 @@ pub(super) fn whole(
         }
         // The first rung is worth any time: without it there is no reference.
         let patience = if best.is_none() { limit * 4 } else { left * 2 };
-        let Some(shot) = lab.shoot(&judge(settings), patience)? else { break };
+        let Some(shot) = shoot(&judge(settings), patience)? else { break };
         left = left.saturating_sub(shot.time);
         if let Some((last, _)) = best.replace((shot, settings)) {
             coarser = Seen::of(&last.frame);

@@ -11,8 +11,8 @@ use super::reference::{self, Reference};
 use super::store::Store;
 use super::{Baseline, Certificate, Errors, Knob, LeftOut, Report, RowRecord, StudyError, Truth, output};
 use crate::gpu::AdapterReport;
-use crate::layout::Settings;
 use crate::layout::constants::MAX_DEPTH;
+use crate::layout::{Effects, Settings};
 
 /// Runs of a row after its warm-up: 15 give an interval between the 4th and the 12th.
 const RUNS: usize = 15;
@@ -76,7 +76,9 @@ pub fn run(config: &Config, watch: &dyn Watch) -> Result<Report, StudyError> {
     let known = if config.fresh { None } else { store.resume(&fresh.key) };
     let report = known.unwrap_or(fresh);
     let steps: Vec<i32> = subjects.iter().map(|subject| subject.steps).collect();
-    let plan = Plan { baseline: &baseline, knobs: &config.knobs, steps: &steps, adapters: &config.adapters };
+    let effects = Effects::of(&subjects[0].flat.scene, &baseline.settings).plan(&baseline.settings).effects;
+    let (knobs, adapters) = (&*config.knobs, &*config.adapters);
+    let plan = Plan { baseline: &baseline, knobs, steps: &steps, adapters, effects };
     let rows = plan.rows();
     let before = report.spent_s;
     let mut course =
@@ -256,7 +258,9 @@ impl Course<'_> {
     fn whole_tree(&mut self, base: Settings, coarse: &Seen, judges: &mut Judges) -> Result<(), StudyError> {
         self.say("reference: the whole tree");
         let limit = self.budget.mul_f64(TRUNCATION_SHARE);
-        let whole = self.reference(Truth::Whole, |lab| reference::whole(lab, base, coarse, limit))?;
+        let whole = self.reference(Truth::Whole, |lab| {
+            reference::whole(&mut |setup, limit| lab.shoot(setup, limit), base, coarse, limit)
+        })?;
         judges.extend(whole.map(|seen| (Truth::Whole, seen)));
         let Some(record) = self.report.references.get(&Truth::Whole).cloned() else { return Ok(()) };
         let cutoff = record.cutoff.unwrap_or(base.cutoff);

@@ -16,6 +16,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("gpu", &["layout", "film"]),
     ("plot", &[]),
     ("study", &["flatten", "cpu", "gpu", "film", "layout", "scene", "plot"]),
+    ("trace", &["kernel", "gpu", "flatten", "film", "layout", "scene", "plot"]),
     ("selftest", &["kernel", "bvh", "layout", "film", "scene", "flatten", "cpu", "gpu"]),
 ];
 

@@ -6,7 +6,7 @@ use bytemuck::Zeroable;
 use naga::{ArraySize, Module, Scalar, ScalarKind, StructMember, Type, TypeInner, VectorSize};
 use snellius::gpu::{SOURCES, Source, assemble};
 use snellius::layout::{
-    Aov, Attribute, Corner, FilmHead, Light, Material, Node, Texel, Tile, Triangle, View,
+    Aov, Attribute, Corner, FilmHead, Light, Material, Node, Texel, Tile, TreeNode, Triangle, View,
 };
 
 use super::planted::Planted;
@@ -135,6 +135,31 @@ fn rust_records() -> Vec<Record> {
             "FilmHead",
             FilmHead { tile, done, paused, cut_short, primary, reflection, refraction, shadow }
         ),
+        record!(
+            "TreeNode",
+            TreeNode {
+                origin,
+                kind,
+                direction,
+                depth,
+                weight,
+                end,
+                light,
+                media,
+                point,
+                id,
+                normal,
+                body,
+                arriving,
+                media_behind,
+                distance,
+                front,
+                children,
+                seen,
+                shadow_rays,
+                reserved,
+            }
+        ),
         film_texel,
         frame,
     ]
@@ -142,7 +167,7 @@ fn rust_records() -> Vec<Record> {
 
 /// What differs between the records of both languages.
 fn differences(sources: &[Source<'_>]) -> Vec<String> {
-    let variant = variants::all().into_iter().find(|variant| variant.aovs).unwrap();
+    let variant = variants::all().into_iter().find(|variant| variant.aovs()).unwrap();
     let module = assemble(sources, "render", "render", &variant).unwrap().module;
     rust_records().iter().flat_map(|record| record_differences(record, &module)).collect()
 }
