@@ -7,3 +7,5 @@ mod layering;
 mod lockstep;
 mod scenes;
 mod selftest;
+mod study;
+mod trace;

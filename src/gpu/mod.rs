@@ -34,6 +34,7 @@ mod render;
 mod sources;
 mod spirv;
 mod testing;
+mod tree;
 mod variant;
 
 pub use adapters::{AdapterKind, AdapterReport, adapters};
@@ -44,6 +45,7 @@ pub use probe::Prober;
 pub use render::GpuRenderer;
 pub use sources::SOURCES;
 pub use spirv::write_spirv;
+pub use tree::GpuTree;
 pub use variant::Variant;
 
 /// Which adapter to take.

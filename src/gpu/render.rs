@@ -109,9 +109,14 @@ impl GpuRenderer {
 
     /// The variant for these settings: fast where the adapter cannot be strict.
     fn variant(&self, settings: &Settings) -> Variant {
-        let variant = Variant::new(self.bvh_depth, settings, &self.plan(settings));
+        let variant = self.variant_of(settings, &self.plan(settings));
         let float = if self.context.adapter.strict_float { variant.float } else { Float::Fast };
         Variant { float, ..variant }
+    }
+
+    /// The variant of a plan, as strict as the settings ask.
+    pub(super) fn variant_of(&self, settings: &Settings, plan: &Plan) -> Variant {
+        Variant::new(self.bvh_depth, settings, plan)
     }
 
     /// Compile the variant, make room for the picture and take it in view.
@@ -126,8 +131,15 @@ impl GpuRenderer {
         let is_cold = self.warm.insert(*variant);
         self.scene.set_view(&self.context, view);
         let group = self.scene.bind(&self.context, &film.buffer);
-        let job =
-            Job { context: &self.context, pipeline: compiled.pipeline, film, group, blocks, band_height };
+        let job = Job {
+            context: &self.context,
+            pipeline: compiled.pipeline,
+            film,
+            group,
+            blocks,
+            band_height,
+            tree_at: compiled.tree_at,
+        };
         if is_cold {
             // Some drivers compile at the first dispatch: have one outside the picture.
             job.submit(Tile { first_block: blocks.count(), block_count: 1, ..Tile::default() })?;

@@ -14,6 +14,7 @@ pub mod material;
 pub mod math;
 pub mod media;
 pub mod real;
+pub mod record;
 pub mod surface;
 pub mod texture;
 pub mod triangle;

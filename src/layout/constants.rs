@@ -82,6 +82,22 @@ shared! {
     SEVERAL: u32 = u32::MAX - 1;
     /// Material index of the air.
     AIR: u32 = 0;
+    /// How a ray of a recorded tree ended: it met a surface.
+    END_SURFACE: u32 = 0;
+    /// It met nothing.
+    END_BACKGROUND: u32 = 1;
+    /// It was not traced: too deep.
+    END_DEPTH: u32 = 2;
+    /// It was not traced: too faint.
+    END_WEIGHT: u32 = 3;
+    /// It met too many interfaces without effect.
+    END_STUCK: u32 = 4;
+    /// Flag of a recorded ray's children: a reflected one.
+    CHILD_REFLECTION: u32 = 1;
+    /// Flag of a recorded ray's children: a refracted one.
+    CHILD_REFRACTION: u32 = 2;
+    /// Rays of a recorded tree that a GPU keeps: the rest is counted.
+    TREE_NODES: u32 = 65_536;
     /// Marks an absent index.
     NONE: u32 = u32::MAX;
     /// Flag in [`Attribute::other`](super::Attribute::other): the second body's outside is on the other side.
