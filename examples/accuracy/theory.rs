@@ -13,7 +13,7 @@ pub(super) fn section(adapters: &[AdapterReport]) -> Result<String> {
         devices.push(Box::new(CpuDevice::new(precision, Intersector::Watertight)));
     }
     for adapter in adapters {
-        let options = GpuOptions { adapter: Some(adapter.name.clone()) };
+        let options = GpuOptions { adapter: Some(adapter.name.clone()), ..GpuOptions::default() };
         devices.push(Box::new(GpuDevice::new(&options, Float::Strict, Intersector::Watertight, SOURCES)?));
     }
     let names: Vec<_> = devices.iter().map(|device| device.name().to_owned()).collect();

@@ -204,7 +204,7 @@ fn on_processor(subject: &Subject, precision: Precision) -> Told {
 }
 
 fn on_adapter(adapter: Option<String>, subject: &Subject, console: Console) -> Result<Told, CliError> {
-    let mut renderer = GpuRenderer::new(subject.flat, &GpuOptions { adapter })?;
+    let mut renderer = GpuRenderer::new(subject.flat, &GpuOptions { adapter, ..GpuOptions::default() })?;
     let traced = renderer.trace_tree(&subject.view, &subject.settings, subject.pixel)?;
     if traced.recorded > TREE_NODES {
         console.warn(format!("the tree has {} rays; only the first {TREE_NODES} are shown", traced.recorded));

@@ -95,7 +95,7 @@ impl<'a> Tracer<'a> {
         Ok(match target {
             Target::Cpu { threads } => Self::Cpu(CpuRenderer::new(scene, *threads)?),
             Target::Gpu { adapter } => {
-                let options = GpuOptions { adapter: Some(adapter.clone()) };
+                let options = GpuOptions { adapter: Some(adapter.clone()), ..GpuOptions::default() };
                 Self::Gpu(Box::new(GpuRenderer::new(scene, &options)?))
             }
         })
