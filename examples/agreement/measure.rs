@@ -129,7 +129,7 @@ impl Bench {
     }
 
     fn gpu(&self, target: &Target, float: Float) -> Result<Frame> {
-        let options = GpuOptions { adapter: Some(target.report.name.clone()) };
+        let options = GpuOptions { adapter: Some(target.report.name.clone()), ..GpuOptions::default() };
         let settings = Settings { float, ..self.settings() };
         let frame = self.trace(&mut GpuRenderer::new(&self.flat, &options)?, target.size, &settings)?;
         if frame.float != float {

@@ -19,6 +19,7 @@ mod adapters;
 mod assemble;
 mod blocks;
 mod buffers;
+mod cache;
 mod context;
 mod error;
 mod film;
@@ -26,6 +27,7 @@ mod job;
 mod locate;
 mod pace;
 mod pipeline;
+mod pipelines;
 mod probe;
 mod quiet;
 mod render;
@@ -33,6 +35,8 @@ mod sources;
 mod spirv;
 mod testing;
 mod variant;
+
+use std::path::PathBuf;
 
 pub use adapters::{AdapterKind, AdapterReport, adapters};
 pub use assemble::{Shader, Source, assemble};
@@ -48,4 +52,7 @@ pub use variant::Variant;
 pub struct GpuOptions {
     /// Part of its name, in any case; without it `WGPU_ADAPTER_NAME` decides, else the best kind is taken.
     pub adapter: Option<String>,
+    /// Folder that keeps compiled pipelines from one run to the next, if any. It is made where it is missing; faults with
+    /// it are logged, and cost only the time to compile.
+    pub pipeline_cache: Option<PathBuf>,
 }

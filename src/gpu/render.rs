@@ -1,6 +1,7 @@
 //! A scene on an adapter, and the pictures that are traced of it.
 
-use std::collections::HashMap;
+use std::collections::HashSet;
+use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use super::blocks::Blocks;
@@ -9,13 +10,10 @@ use super::context::Context;
 use super::film::FilmBuffer;
 use super::job::Job;
 use super::pace::Pace;
-use super::pipeline::Compiled;
-use super::{AdapterReport, GpuError, GpuOptions, SOURCES, Variant, pipeline};
+use super::pipelines::Pipelines;
+use super::{AdapterReport, GpuError, GpuOptions, Variant};
 use crate::film::{Frame, Progress, RayCounts, Renderer, TraceTimes};
 use crate::layout::{FlatScene, Float, Plan, Scan, Settings, Tile, View};
-
-/// File and name of the entry point.
-const ENTRY: (&str, &str) = ("render", "render");
 
 /// A scene on an adapter.
 pub struct GpuRenderer {
@@ -26,7 +24,9 @@ pub struct GpuRenderer {
     scan: Scan,
     /// What the upload took, until a frame has told it.
     upload: Duration,
-    pipelines: HashMap<Variant, Compiled>,
+    pipelines: Pipelines,
+    /// Variants that have been dispatched.
+    warm: HashSet<Variant>,
     film: Option<FilmBuffer>,
 }
 
@@ -40,13 +40,15 @@ impl GpuRenderer {
         let context = Context::new(options)?;
         let start = Instant::now();
         let buffers = SceneBuffers::new(&context, scene)?;
+        let pipelines = Pipelines::new(&context, &buffers.layout);
         Ok(Self {
             context,
             scene: buffers,
             bvh_depth: scene.bvh_depth,
             scan: Scan::of(scene),
             upload: start.elapsed(),
-            pipelines: HashMap::new(),
+            pipelines,
+            warm: HashSet::new(),
             film: None,
         })
     }
@@ -55,6 +57,20 @@ impl GpuRenderer {
     #[must_use]
     pub fn adapter(&self) -> &AdapterReport {
         &self.context.adapter
+    }
+
+    /// Whether the pipeline that these settings need is compiled.
+    #[must_use]
+    pub fn is_compiled(&self, settings: &Settings) -> bool {
+        self.pipelines.get(&self.variant(settings)).is_some()
+    }
+
+    /// Compile the pipeline that these settings need on another thread. Until it is there, a render with
+    /// [`EffectChoice::All`](crate::layout::EffectChoice::All) gives the same picture by a pipeline that may be: the general
+    /// one serves any scene of that depth.
+    pub fn compile_ahead(&self, settings: &Settings) -> JoinHandle<Result<(), GpuError>> {
+        let (pipelines, variant) = (self.pipelines.clone(), self.variant(settings));
+        thread::spawn(move || pipelines.compile(&variant).map(drop))
     }
 
     /// What is simulated under these settings.
@@ -71,7 +87,7 @@ impl GpuRenderer {
 
     /// Compile the variant, make room for the picture and take it in view.
     fn prepare(&mut self, view: &View, variant: &Variant) -> Result<Job<'_>, GpuError> {
-        let (compiled, is_new) = self.pipeline(variant)?;
+        let compiled = self.pipelines.compile(variant)?;
         // As many rows as fit one buffer.
         let [_, _, width, height] = view.crop;
         let blocks = Blocks::new(width, height);
@@ -79,12 +95,13 @@ impl GpuRenderer {
         let most_pixels = FilmBuffer::most_pixels(limit, compiled.texels_at, variant.aovs());
         let band_height = blocks.band_height(most_pixels);
         let pixels = u64::from(width) * u64::from(band_height);
+        let is_cold = self.warm.insert(*variant);
         let film = self.film(compiled.texels_at, pixels, variant.aovs())?;
         self.scene.set_view(&self.context, view);
         let group = self.scene.bind(&self.context, &film.buffer);
         let job =
             Job { context: &self.context, pipeline: compiled.pipeline, film, group, blocks, band_height };
-        if is_new {
+        if is_cold {
             // Some drivers compile at the first dispatch: have one outside the picture.
             job.submit(Tile { first_block: blocks.count(), block_count: 1, ..Tile::default() })?;
         }
@@ -98,16 +115,6 @@ impl GpuRenderer {
             _ => FilmBuffer::new(&self.context, texels_at, pixels, aovs)?,
         };
         Ok(self.film.insert(film).clone())
-    }
-
-    /// The variant's pipeline, and whether it is new.
-    fn pipeline(&mut self, variant: &Variant) -> Result<(Compiled, bool), GpuError> {
-        if let Some(pipeline) = self.pipelines.get(variant) {
-            return Ok((pipeline.clone(), false));
-        }
-        let pipeline = pipeline::compile(&self.context, &self.scene.layout, SOURCES, ENTRY, variant)?;
-        self.pipelines.insert(*variant, pipeline.clone());
-        Ok((pipeline, true))
     }
 }
 

@@ -18,6 +18,17 @@ impl Simulation for EffectSet {
     }
 }
 
+/// A set of effects that a kernel asks as it runs, but of which it knows as it is compiled that it holds none beyond those
+/// of the bits `MOST`.
+#[derive(Debug, Clone, Copy)]
+pub struct Within<const MOST: u32>(pub EffectSet);
+
+impl<const MOST: u32> Simulation for Within<MOST> {
+    fn simulates(self, effect: Effect) -> bool {
+        EffectSet::from_bits(MOST).has(effect) && self.0.has(effect)
+    }
+}
+
 /// The read-only surroundings of a trace.
 #[derive(Debug, Clone, Copy)]
 pub struct World<'a, S = EffectSet> {
@@ -31,7 +42,12 @@ pub struct World<'a, S = EffectSet> {
     pub effects: S,
 }
 
-impl<S: Simulation> World<'_, S> {
+impl<'a, S: Simulation> World<'a, S> {
+    /// The same surroundings with other effects.
+    pub fn simulating<T: Simulation>(&self, effects: T) -> World<'a, T> {
+        World { scene: self.scene, view: self.view, intersector: self.intersector, effects }
+    }
+
     /// Whether an effect is simulated.
     pub fn simulates(&self, effect: Effect) -> bool {
         self.effects.simulates(effect)

@@ -54,8 +54,8 @@ shared! {
     MAX_PASSES: u32 = 4096;
     /// Passes that a GPU invocation books for a round of a loop: the round, and one that finds the loop's end.
     LOOP_STEPS: u32 = 2;
-    /// Passes that it books for a node of the BVH: a round of the traversal, and one for each child and their end.
-    NODE_STEPS: u32 = 5;
+    /// Passes that it books for a round of the traversal: a node of the BVH, a triangle, or both.
+    NODE_STEPS: u32 = 1;
     /// Rows of four in [`View::media`](super::View::media).
     MEDIA_ROWS: u32 = MAX_MEDIA.div_ceil(4);
     /// Rows of four in [`View::radiance_bound`](super::View::radiance_bound): 0 to `MAX_DEPTH` levels.

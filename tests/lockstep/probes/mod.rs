@@ -77,7 +77,6 @@ const COVERED: &[(&str, &str)] = &[
     ("see_background", "the pictures"),
     ("push", "the pictures"),
     ("follow", "the pictures"),
-    ("traverse", "intersect"),
     ("triangle_slabs", "intersect"),
     ("upper", "power"),
     ("wrap_index", "texture_color"),
