@@ -5,5 +5,6 @@ mod closed_forms;
 mod fuzz;
 mod layering;
 mod lockstep;
+mod properties;
 mod scenes;
 mod selftest;

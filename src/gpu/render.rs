@@ -10,7 +10,7 @@ use super::film::FilmBuffer;
 use super::job::Job;
 use super::pace::Pace;
 use super::pipeline::Compiled;
-use super::{AdapterReport, GpuError, GpuOptions, SOURCES, Source, Variant, pipeline};
+use super::{AdapterReport, GpuError, GpuOptions, Portions, SOURCES, Source, Variant, pipeline};
 use crate::film::{Frame, Progress, RayCounts, Renderer, TraceTimes};
 use crate::layout::{FlatScene, Float, Settings, Tile, View};
 
@@ -28,6 +28,8 @@ pub struct GpuRenderer {
     upload: Duration,
     pipelines: HashMap<Variant, Compiled>,
     film: Option<FilmBuffer>,
+    /// See [`Portions::pixels`].
+    band_pixels: u64,
 }
 
 impl GpuRenderer {
@@ -60,6 +62,7 @@ impl GpuRenderer {
             upload: start.elapsed(),
             pipelines: HashMap::new(),
             film: None,
+            band_pixels: u64::MAX,
         })
     }
 
@@ -67,6 +70,18 @@ impl GpuRenderer {
     #[must_use]
     pub fn adapter(&self) -> &AdapterReport {
         &self.context.adapter
+    }
+
+    /// How much of a picture is traced at a time: at first, what suits the adapter.
+    #[must_use]
+    pub fn portions(&self) -> Portions {
+        Portions { steps: self.context.step_budget, pixels: self.band_pixels }
+    }
+
+    /// Trace that much at a time.
+    pub fn set_portions(&mut self, portions: Portions) {
+        self.context.step_budget = portions.steps;
+        self.band_pixels = portions.pixels;
     }
 
     /// Put another scene in place of this one. What was compiled is kept, unless the new scene's tree is deeper.
@@ -96,7 +111,7 @@ impl GpuRenderer {
         let blocks = Blocks::new(width, height);
         let limit = self.context.largest_binding();
         let most_pixels = FilmBuffer::most_pixels(limit, compiled.texels_at, variant.aovs);
-        let band_height = blocks.band_height(most_pixels);
+        let band_height = blocks.band_height(most_pixels.min(self.band_pixels));
         let pixels = u64::from(width) * u64::from(band_height);
         let film = self.film(compiled.texels_at, pixels, variant.aovs)?;
         self.scene.set_view(&self.context, view);

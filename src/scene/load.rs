@@ -67,7 +67,7 @@ impl Scene {
     /// assert!(Scene::parse("ball.toml".as_ref(), text).unwrap_err().to_string().contains("glas"));
     /// ```
     pub fn parse(path: &Path, text: &str) -> Result<Self, SceneError> {
-        from_toml(&Source::new(path, text.to_owned()))
+        from_toml(&Source::new(path, text.to_owned()), Limits::default())
     }
 }
 

@@ -40,6 +40,39 @@ const FAULTS: &[Fault] = &[
             "let cx = c.x - (shear.by.x * 1.0000001) * c.z;",
         ),
     },
+    Fault {
+        case: "T14",
+        what: "ties that go to the highest id",
+        change: ("bvh", "tri.id < best.id", "tri.id > best.id"),
+    },
+    Fault {
+        case: "T18",
+        what: "boxes that every NaN enters",
+        change: (
+            "bvh",
+            "let hit = entry <= exit && entry <= best.t;",
+            "let hit = !(entry > exit || entry > best.t) || ray.reciprocal.x != ray.reciprocal.x;",
+        ),
+    },
+    Fault {
+        case: "T20",
+        what: "a mirror that is off by an ULP",
+        change: (
+            "material",
+            "let mirrored = direction + n * (c + c);",
+            "let mirrored = direction + n * (c + c) * 1.0000001;",
+        ),
+    },
+    Fault {
+        case: "T21",
+        what: "a rest that forgets the waiting rays",
+        change: ("whitted", "film.lanes[lane].stack_size = stack_size;", "film.lanes[lane].stack_size = 0u;"),
+    },
+    Fault {
+        case: "T22",
+        what: "rays that are cut without account",
+        change: ("whitted", "sample.dropped = sample.dropped + weight;", ""),
+    },
 ];
 
 #[test]
