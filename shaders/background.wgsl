@@ -8,8 +8,10 @@ import package::constants::{INV_PI, NONE};
 
 // Radiance from infinity along a unit direction.
 fn background(direction: vec3r) -> vec3r {
-    if frame.view.environment != NONE {
-        return environment(direction);
+    @if(environment) {
+        if frame.view.environment != NONE {
+            return environment(direction);
+        }
     }
     let horizon = vec3r(frame.view.horizon);
     let zenith = vec3r(frame.view.zenith);

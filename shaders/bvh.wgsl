@@ -5,7 +5,7 @@ import package::triangle::{Shear, shear_of, intersect_triangle};
 import package::records::Triangle;
 import package::bindings::{frame, nodes, triangles};
 import package::constants::{
-    BVH_STACK, FAR, LEAST_DIRECTION, LOOP_STEPS, NODE_STEPS, NONE, ORIGIN_PADDING, SLAB_PADDING,
+    BVH_STACK, FAR, LEAST_DIRECTION, LOOP_STEPS, MOST_REACH, NODE_STEPS, NONE, ORIGIN_PADDING, SLAB_PADDING,
 };
 
 // A ray, prepared for boxes and triangles.
@@ -109,9 +109,19 @@ fn occluded(ray: Ray, limit: real) -> bool {
     return traverse(ray, limit, true).id != NONE;
 }
 
+// Whether a scene can make such a ray: no NaN, and nothing beyond reach.
+fn is_usable(ray: Ray) -> bool {
+    let d = abs(ray.direction);
+    return abs(ray.origin_hi.x) + d.x + d.y + d.z < MOST_REACH;
+}
+
 // Walk the tree: to the nearest hit, or if any will do to the first that is found.
 fn traverse(ray: Ray, limit: real, any_hit: bool) -> Hit {
     var best = Hit(limit, 0u, NONE, 0.0, 0.0, false);
+    if !is_usable(ray) {
+        best.id = NONE;
+        return best;
+    }
     var size = 0u;
     var at = 0u;
     loop {

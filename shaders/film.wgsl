@@ -28,13 +28,15 @@ fn add(before: Texel, sample: Sample, index: u32) -> Texel {
         texel.primitive_hash = sample.primitive_hash;
         texel.body_hash = sample.body_hash;
     }
-    if index + 1u == frame.view.samples {
-        let n = f32(i32(frame.view.samples));
-        texel.radiance.x = flush(real(texel.radiance.x / n));
-        texel.radiance.y = flush(real(texel.radiance.y / n));
-        texel.radiance.z = flush(real(texel.radiance.z / n));
-        texel.dropped = flush(real(texel.dropped / n));
-        texel.bound = flush(real(texel.bound / n));
+    @if(antialiasing) {
+        if frame.view.samples > 1u && index + 1u == frame.view.samples {
+            let n = f32(i32(frame.view.samples));
+            texel.radiance.x = flush(real(texel.radiance.x / n));
+            texel.radiance.y = flush(real(texel.radiance.y / n));
+            texel.radiance.z = flush(real(texel.radiance.z / n));
+            texel.dropped = flush(real(texel.dropped / n));
+            texel.bound = flush(real(texel.bound / n));
+        }
     }
     return texel;
 }

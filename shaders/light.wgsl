@@ -1,13 +1,13 @@
 // Stop 5 of 7: light. Twin of src/kernel/light.rs.
 
 import package::real::{real, vec3r, least};
-import package::bvh::{intersect, make_ray, occluded, steps};
-import package::material::shadow_transmission;
+import package::bvh::{make_ray, occluded, steps, traverse};
+import package::material::{is_transmissive, shadow_transmission};
 import package::math::{dot3, length3, max3, power};
 import package::media::{attenuation, cross_face, current_medium};
 import package::surface::{Surface, resolve, spawn_behind};
 import package::texture::texture_color;
-import package::bindings::{frame, materials};
+import package::bindings::{attributes, frame, materials};
 import package::constants::{LOOP_STEPS, MAX_PASSES, NONE};
 
 // What the point lights and the ambient light give a surface.
@@ -18,45 +18,63 @@ struct Direct {
 }
 
 // The local terms ka·Ia + Σj Tj·Ij·[kd·(n·lj) + ks·(s·rj)^β], lights in order.
-fn direct(surface: Surface, direction: vec3r, media: u32) -> Direct {
+fn direct(surface: Surface, direction: vec3r, @if(tinted_shadows) media: u32) -> Direct {
     let m = materials[surface.material];
     var tint = vec3r(1.0);
-    if m.texture != NONE {
-        tint = texture_color(surface.material, surface.uv);
+    @if(textures) {
+        if m.texture != NONE {
+            tint = texture_color(surface.material, surface.uv);
+        }
     }
     let ambient = vec3r(m.ambient) * tint;
-    let diffuse = vec3r(m.diffuse) * tint;
-    let specular = vec3r(m.specular);
     var result = Direct(ambient * vec3r(frame.view.ambient), 0u, 0u);
-    if max3(diffuse) <= 0.0 && max3(specular) <= 0.0 {
-        return result;
-    }
-    let origin = surface.shadow_point + surface.face_normal * surface.offset;
-    for (var j = 0u; j < frame.view.lights; j++) {
-        steps += LOOP_STEPS;
-        let position = vec3r(frame.lights[j].position);
-        let to_light = position - origin;
-        let distance = length3(to_light);
-        let l = vec3r(to_light.x / distance, to_light.y / distance, to_light.z / distance);
-        // A light behind the shading surface gives nothing, and one at the very point has no direction.
-        let cosine = dot3(surface.normal, l);
-        let lit = cosine > 0.0;
-        if !lit {
-            continue;
+    @if(lights) {
+        let diffuse = vec3r(m.diffuse) * tint;
+        let specular = vec3r(m.specular);
+        let shines = max3(specular) > 0.0;
+        if max3(diffuse) <= 0.0 && !shines {
+            return result;
         }
-        let lobe = phong(surface.normal, l, direction, cosine, real(m.shininess), specular);
-        result.shadow_rays++;
-        let t = transmittance(origin, l, distance, position, media);
-        if max3(t) <= 0.0 {
-            continue;
+        let origin = surface.shadow_point + surface.face_normal * surface.offset;
+        @if(one_light) let lights = 1u;
+        @else let lights = frame.view.lights;
+        for (var j = 0u; j < lights; j++) {
+            steps += LOOP_STEPS;
+            let position = vec3r(frame.lights[j].position);
+            let to_light = position - origin;
+            let distance = length3(to_light);
+            let l = vec3r(to_light.x / distance, to_light.y / distance, to_light.z / distance);
+            // A light behind the shading surface gives nothing, and one at the very point has no direction.
+            let cosine = dot3(surface.normal, l);
+            let lit = cosine > 0.0;
+            if !lit {
+                continue;
+            }
+            var t = vec3r(1.0);
+            @if(shadows) {
+                result.shadow_rays++;
+                @if(tinted_shadows) t = transmittance(origin, l, distance, position, media);
+                @else t = transmittance(origin, l, distance, position);
+                if max3(t) <= 0.0 {
+                    continue;
+                }
+            }
+            result.seen ^= 1u << (j & 31u);
+            var intensity = vec3r(frame.lights[j].intensity);
+            @if(falloff) {
+                if frame.lights[j].inverse_square != 0u {
+                    let d2 = distance * distance;
+                    intensity = vec3r(intensity.x / d2, intensity.y / d2, intensity.z / d2);
+                }
+            }
+            var local = diffuse * cosine;
+            @if(specular) {
+                if shines {
+                    local = local + phong(surface.normal, l, direction, cosine, real(m.shininess), specular);
+                }
+            }
+            result.radiance = result.radiance + t * intensity * local;
         }
-        result.seen ^= 1u << (j & 31u);
-        var intensity = vec3r(frame.lights[j].intensity);
-        if frame.lights[j].inverse_square != 0u {
-            let d2 = distance * distance;
-            intensity = vec3r(intensity.x / d2, intensity.y / d2, intensity.z / d2);
-        }
-        result.radiance = result.radiance + t * intensity * (diffuse * cosine + lobe);
     }
     return result;
 }
@@ -72,39 +90,41 @@ fn phong(n: vec3r, l: vec3r, direction: vec3r, cosine: real, shininess: real, sp
 }
 
 // Tj: what comes straight, unrefracted, from a light to a point in the given media, per channel.
-fn transmittance(origin: vec3r, l: vec3r, distance: real, light: vec3r, media: u32) -> vec3r {
-    // Where every body is opaque one blocker decides, whichever it is.
-    if frame.view.transmissive_bodies == 0u {
-        return select(vec3r(1.0), vec3r(0.0), occluded(make_ray(origin, l), distance));
+fn transmittance(origin: vec3r, l: vec3r, distance: real, light: vec3r, @if(tinted_shadows) media: u32) -> vec3r {
+    @if(!tinted_shadows) return select(vec3r(1.0), vec3r(0.0), occluded(make_ray(origin, l), distance));
+    @if(tinted_shadows) {
+        // Where every body is opaque one blocker decides, whichever it is.
+        let any_hit = frame.view.transmissive_bodies == 0u;
+        var result = vec3r(1.0);
+        var mask = media;
+        var start = origin;
+        var left = distance;
+        for (var i = 0u; i < MAX_PASSES; i++) {
+            steps += LOOP_STEPS;
+            let ray = make_ray(start, l);
+            let hit = traverse(ray, left, any_hit);
+            let medium = current_medium(mask);
+            if hit.id == NONE {
+                @if(absorption) result = result * attenuation(medium, left);
+                return result;
+            }
+            if !is_transmissive(attributes[hit.id].material) {
+                return vec3r(0.0);
+            }
+            @if(absorption) result = result * attenuation(medium, hit.t);
+            let surface = resolve(ray, hit);
+            let next = cross_face(mask, hit.id, hit.front);
+            let behind = current_medium(next);
+            if behind != medium {
+                result = result * shadow_transmission(surface, l, medium, behind);
+            }
+            if max3(result) <= 0.0 {
+                return vec3r(0.0);
+            }
+            mask = next;
+            start = spawn_behind(surface);
+            left = length3(light - start);
+        }
+        return vec3r(0.0);
     }
-    var result = vec3r(1.0);
-    var mask = media;
-    var start = origin;
-    var left = distance;
-    for (var i = 0u; i < MAX_PASSES; i++) {
-        steps += LOOP_STEPS;
-        let ray = make_ray(start, l);
-        let hit = intersect(ray, left);
-        let medium = current_medium(mask);
-        if hit.id == NONE {
-            return result * attenuation(medium, left);
-        }
-        let surface = resolve(ray, hit);
-        if max3(vec3r(materials[surface.material].transmission)) <= 0.0 {
-            return vec3r(0.0);
-        }
-        result = result * attenuation(medium, hit.t);
-        let next = cross_face(mask, hit.id, hit.front);
-        let behind = current_medium(next);
-        if behind != medium {
-            result = result * shadow_transmission(surface, l, medium, behind);
-        }
-        if max3(result) <= 0.0 {
-            return vec3r(0.0);
-        }
-        mask = next;
-        start = spawn_behind(surface);
-        left = length3(light - start);
-    }
-    return vec3r(0.0);
 }

@@ -7,12 +7,12 @@ import package::bindings::materials;
 
 // Where light goes on from a surface, and with which weights.
 struct Scatter {
-    reflected: vec3r,
-    reflection: vec3r,
-    refracted: vec3r,
-    transmission: vec3r,
     reflects: bool,
-    transmits: bool,
+    @if(reflection) reflected: vec3r,
+    @if(reflection) reflection: vec3r,
+    @if(transmission) refracted: vec3r,
+    @if(transmission) transmission: vec3r,
+    @if(transmission) transmits: bool,
 }
 
 // Fresnel's answer for unpolarised light.
@@ -44,54 +44,80 @@ fn fresnel(c: real, eta: real) -> Fresnel {
 // Reflect and refract at an interface between two media, given by their material indices.
 fn scatter(surface: Surface, direction: vec3r, before: u32, behind: u32) -> Scatter {
     let kr = vec3r(materials[surface.material].reflection);
-    let kt = vec3r(materials[surface.material].transmission);
-    let weighted = materials[surface.material].fresnel != 0u;
+    @if(transmission) let kt = vec3r(materials[surface.material].transmission);
+    var result: Scatter;
+    // Opaque matter has its own index behind the face.
+    @if(transmission) let transparent = is_transmissive(surface.material);
+    @else let transparent = false;
+    if max3(kr) <= 0.0 && !transparent {
+        return result;
+    }
     let n = surface.normal;
     let c = least(greatest(0.0 - dot3(direction, n), 0.0), 1.0);
-    // Opaque matter has its own index behind the face.
-    let transparent = max3(kt) > 0.0;
-    let inner = select(surface.material, behind, transparent);
-    let eta = index_of(inner) / index_of(before);
-    let f = fresnel(c, eta);
+    @if(fresnel || transmission) let inner = select(surface.material, behind, transparent);
+    @if(fresnel || transmission) let f = fresnel(c, index_of(inner) / index_of(before));
+    @if(fresnel) let weighted = materials[surface.material].fresnel != 0u;
+    @else let weighted = false;
+    @if(transmission) let total = transparent && f.total;
+    @else let total = false;
     // Mirror direction, kept on the arriving side of the face.
-    let mirrored = direction + n * (c + c);
-    let reflected = turn_towards(mirrored, surface.face_normal);
+    @if(reflection) {
+        if max3(kr) > 0.0 || (total && !weighted) {
+            let mirrored = direction + n * (c + c);
+            result.reflects = true;
+            result.reflected = turn_towards(mirrored, surface.face_normal);
+            result.reflection = kr;
+            @if(fresnel) {
+                if weighted {
+                    result.reflection = kr * f.reflectance;
+                }
+            }
+            @if(transmission) {
+                if total && !weighted {
+                    result.reflection = kr + kt;
+                }
+            }
+        }
+    }
     // Snell: eta t = d - (g - c) n, kept on the other side.
-    var refracted = direction;
-    if f.bend != 0.0 {
-        let bent = direction - n * f.bend;
-        refracted = turn_towards(unit3(bent), -surface.face_normal);
+    @if(transmission) {
+        if transparent && !total {
+            result.transmits = true;
+            result.refracted = direction;
+            if f.bend != 0.0 {
+                let bent = direction - n * f.bend;
+                result.refracted = turn_towards(unit3(bent), -surface.face_normal);
+            }
+            result.transmission = kt;
+            @if(fresnel) {
+                if weighted {
+                    result.transmission = kt * (1.0 - f.reflectance);
+                }
+            }
+        }
     }
-    let total = transparent && f.total;
-    var reflection = kr;
-    var transmission = kt;
-    if weighted {
-        reflection = kr * f.reflectance;
-        transmission = kt * (1.0 - f.reflectance);
-    } else if total {
-        reflection = kr + kt;
-    }
-    return Scatter(
-        reflected,
-        reflection,
-        refracted,
-        transmission,
-        max3(kr) > 0.0 || (total && !weighted),
-        transparent && !total,
-    );
+    return result;
 }
 
 // What an interface lets through to a shadow ray: kt, or kt(1-R) with R taken from the rarer side, never total.
 fn shadow_transmission(surface: Surface, direction: vec3r, before: u32, behind: u32) -> vec3r {
     let kt = vec3r(materials[surface.material].transmission);
-    if materials[surface.material].fresnel == 0u {
-        return kt;
+    @if(!fresnel) return kt;
+    @if(fresnel) {
+        if materials[surface.material].fresnel == 0u {
+            return kt;
+        }
+        let c = least(abs(dot3(direction, surface.normal)), 1.0);
+        let a = index_of(before);
+        let b = index_of(behind);
+        let eta = greatest(a, b) / least(a, b);
+        return kt * (1.0 - fresnel(c, eta).reflectance);
     }
-    let c = least(abs(dot3(direction, surface.normal)), 1.0);
-    let a = index_of(before);
-    let b = index_of(behind);
-    let eta = greatest(a, b) / least(a, b);
-    return kt * (1.0 - fresnel(c, eta).reflectance);
+}
+
+// Whether a material lets light through.
+fn is_transmissive(material: u32) -> bool {
+    return max3(vec3r(materials[material].transmission)) > 0.0;
 }
 
 // Refractive index of a medium.

@@ -3,12 +3,12 @@
 import package::real::{real, vec3r};
 import package::math::exp_neg;
 import package::bindings::{attributes, frame, materials};
-import package::constants::{NONE, OPPOSITE};
+import package::constants::{AIR, NONE, OPPOSITE};
 
-// Material index of the medium: that of the lowest set bit, 0 (air) where none is set.
+// Material index of the medium: that of the lowest set bit, the air where none is set.
 fn current_medium(mask: u32) -> u32 {
     if mask == 0u {
-        return 0u;
+        return AIR;
     }
     let body = countTrailingZeros(mask);
     return frame.view.media[body >> 2][body & 3];
@@ -17,11 +17,13 @@ fn current_medium(mask: u32) -> u32 {
 // The mask behind a face, for a ray that meets it from its front or its back.
 fn cross_face(mask: u32, id: u32, front: bool) -> u32 {
     let body = attributes[id].body;
-    let other = attributes[id].other;
     var behind = set_body(mask, body, front);
-    if other != NONE {
-        let opposite = (other & OPPOSITE) != 0u;
-        behind = set_body(behind, other & ~OPPOSITE, front != opposite);
+    @if(nested_media) {
+        let other = attributes[id].other;
+        if other != NONE {
+            let opposite = (other & OPPOSITE) != 0u;
+            behind = set_body(behind, other & ~OPPOSITE, front != opposite);
+        }
     }
     return behind;
 }
@@ -32,7 +34,12 @@ fn set_body(mask: u32, body: u32, inside: bool) -> u32 {
         return mask;
     }
     let bit = 1u << body;
-    return select(mask & ~bit, mask | bit, inside);
+    let others = mask & ~bit;
+    if !inside {
+        return others;
+    }
+    @if(nested_media) return mask | bit;
+    @else return bit;
 }
 
 // What is left of light after a distance in a medium, per channel: exp(-sigma t) (Beer–Lambert).

@@ -86,12 +86,13 @@ struct FilmTexel {
     @if(aovs) aov: Aov,
 }
 
-// An invocation at rest: the tree in work, and which sample it belongs to.
+// An invocation at rest: which sample it goes on with, and the tree in work.
 struct Lane {
-    sample: Sample,
     sample_index: u32,
-    stack_size: u32,
-    stack: array<Branch, STACK_SIZE>,
+    @if(bounces) sample: Sample,
+    @if(bounces) branch: Branch,
+    @if(branches) stack_size: u32,
+    @if(branches) stack: array<Branch, STACK_SIZE>,
 }
 
 // What a dispatch is told, and what it reports.

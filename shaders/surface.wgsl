@@ -1,10 +1,10 @@
 // Stop 4 of 7: surface. Twin of src/kernel/surface.rs.
 
-import package::real::{real, vec3r};
+import package::real::{greatest, real, vec3r};
 import package::math::{dot3, unit3};
 import package::bvh::{Hit, Ray};
 import package::bindings::{attributes, corners, triangles};
-import package::constants::{NONE, ROUNDOFF, SPAWN_ROUNDOFFS};
+import package::constants::{EDGE_OFFSETS, NONE, ROUNDOFF, SPAWN_ROUNDOFFS};
 
 // A point on a face, as the ray that found it sees it.
 struct Surface {
@@ -31,19 +31,22 @@ fn resolve(ray: Ray, hit: Hit) -> Surface {
     let p0 = v0 * b0;
     let p1 = v1 * hit.b1;
     let p2 = v2 * hit.b2;
-    let point = p0 + p1 + p2;
+    let weighted = p0 + p1 + p2;
     let size = abs(p0) + abs(p1) + abs(p2);
     let extent = abs(v1 - v0) + abs(v2 - v0);
     let outward = vec3r(face.normal);
     let face_normal = select(-outward, outward, hit.front);
     let reach = dot3(abs(face_normal), size) + (extent.x + extent.y + extent.z);
     let offset = reach * (SPAWN_ROUNDOFFS * ROUNDOFF);
+    let least = EDGE_OFFSETS * offset / (extent.x + extent.y + extent.z);
+    let point = weighted + off_edge(weighted, v0, b0, least) + off_edge(weighted, v1, hit.b1, least)
+        + off_edge(weighted, v2, hit.b2, least);
     var surface = Surface(
         point, offset, face_normal, face_normal, point, array<real, 2>(0.0, 0.0), face.material, face.body, hit.id,
         hit.front,
     );
     // Smooth normals and texture coordinates.
-    if face.corners != NONE {
+    @if(smooth_normals) if face.corners != NONE {
         let c0 = corners[face.corners];
         let c1 = corners[face.corners + 1u];
         let c2 = corners[face.corners + 2u];
@@ -60,6 +63,12 @@ fn resolve(ray: Ray, hit: Hit) -> Surface {
             point + lift(point, v0, n0) * b0 + lift(point, v1, n1) * hit.b1 + lift(point, v2, n2) * hit.b2;
     }
     return surface;
+}
+
+// What moves a point that lies on the edge opposite a corner, or nearly so, towards that corner, until the corner's
+// weight is `least`; nothing for others.
+fn off_edge(point: vec3r, corner: vec3r, weight: real, least: real) -> vec3r {
+    return (corner - point) * greatest(least - weight, 0.0);
 }
 
 // A corner's shading normal on the ray's side.

@@ -7,20 +7,20 @@ import package::camera::primary_ray;
 import package::film::{Sample, add, flush, flush3};
 import package::hash::{mix_hash, sample_offset};
 import package::light::direct;
-import package::material::scatter;
+import package::material::{is_transmissive, scatter};
 import package::math::max3;
 import package::media::{attenuation, cross_face, current_medium};
 import package::records::Aov;
 import package::surface::{Surface, resolve, spawn_before, spawn_behind};
-import package::bindings::{film, frame, materials};
+import package::bindings::{film, frame};
 import package::constants::{
-    LOOP_STEPS, MAX_DEPTH, MAX_PASSES, NONE, RAY_PRIMARY, RAY_REFLECTION, RAY_REFRACTION, RAY_SHADOW,
+    AIR, LOOP_STEPS, MAX_DEPTH, MAX_PASSES, NONE, RAY_PRIMARY, RAY_REFLECTION, RAY_REFRACTION, RAY_SHADOW,
 };
 
 // A ray of the tree that is still to be traced.
 struct Branch {
     origin: vec3r,
-    media: u32,
+    @if(transmission) media: u32,
     direction: vec3r,
     depth: u32,
     weight: vec3r,
@@ -30,21 +30,23 @@ struct Branch {
 // How a branch ends: where it meets a surface that matters, or `found` false where it meets none.
 struct Landing {
     found: bool,
-    stuck: bool,
     surface: Surface,
     distance: real,
-    media: u32,
-    media_behind: u32,
+    @if(transmission) stuck: bool,
+    @if(transmission) media: u32,
+    @if(transmission) media_behind: u32,
 }
 
 // The branch to go on with, if `found`.
 struct Next {
     found: bool,
-    branch: Branch,
+    @if(bounces) branch: Branch,
 }
 
 var<private> sample: Sample;
-var<private> stack_size: u32;
+// The ray in work; those that wait for it lie in the lane.
+var<private> current: Branch;
+@if(branches) var<private> stack_size: u32;
 // Which of the film's lanes is this invocation's: its stack lies there, so that a rest costs nothing.
 var<private> lane: u32;
 
@@ -53,11 +55,16 @@ var<private> lane: u32;
 fn trace_pixel(pixel: vec2u, slot: u32) -> bool {
     let end = film.head.tile.first_sample + film.head.tile.sample_count;
     var i = film.head.tile.first_sample;
-    var resumes = film.head.tile.resume != 0u;
-    if resumes {
+    // A tree of one ray rests before it begins.
+    var resumes = false;
+    if film.head.tile.resume != 0u {
         i = film.lanes[lane].sample_index;
-        sample = film.lanes[lane].sample;
-        stack_size = film.lanes[lane].stack_size;
+        @if(bounces) {
+            resumes = true;
+            sample = film.lanes[lane].sample;
+            current = film.lanes[lane].branch;
+        }
+        @if(branches) stack_size = film.lanes[lane].stack_size;
     }
     var finished = true;
     for (; i < end; i++) {
@@ -79,13 +86,16 @@ fn trace_pixel(pixel: vec2u, slot: u32) -> bool {
             }
         }
         atomicAdd(&film.head.primary, sample.rays_by_kind[RAY_PRIMARY]);
-        atomicAdd(&film.head.reflection, sample.rays_by_kind[RAY_REFLECTION]);
-        atomicAdd(&film.head.refraction, sample.rays_by_kind[RAY_REFRACTION]);
-        atomicAdd(&film.head.shadow, sample.rays_by_kind[RAY_SHADOW]);
+        @if(reflection) atomicAdd(&film.head.reflection, sample.rays_by_kind[RAY_REFLECTION]);
+        @if(transmission) atomicAdd(&film.head.refraction, sample.rays_by_kind[RAY_REFRACTION]);
+        @if(shadows) atomicAdd(&film.head.shadow, sample.rays_by_kind[RAY_SHADOW]);
     }
     film.lanes[lane].sample_index = i;
-    film.lanes[lane].sample = sample;
-    film.lanes[lane].stack_size = stack_size;
+    @if(bounces) {
+        film.lanes[lane].sample = sample;
+        film.lanes[lane].branch = current;
+    }
+    @if(branches) film.lanes[lane].stack_size = stack_size;
     return finished;
 }
 
@@ -99,40 +109,46 @@ fn start_tree(direction: vec3r) {
     sample.primitive_hash = 0u;
     sample.body_hash = 0u;
     @if(aovs) { sample.aov = Aov(vec3f(0.0), 0.0, NONE, NONE, vec2u(0u)); }
-    stack_size = 0u;
-    let view = frame.view;
-    push(Branch(vec3r(view.eye), view.start_media, direction, 0u, vec3r(1.0), RAY_PRIMARY));
+    @if(branches) stack_size = 0u;
+    current.origin = vec3r(frame.view.eye);
+    @if(transmission) current.media = frame.view.start_media;
+    current.direction = direction;
+    current.depth = 0u;
+    current.weight = vec3r(1.0);
+    current.kind = RAY_PRIMARY;
 }
 
 // Leave a branch for later.
 fn push(branch: Branch) {
-    film.lanes[lane].stack[stack_size] = branch;
-    stack_size++;
+    @if(branches) {
+        film.lanes[lane].stack[stack_size] = branch;
+        stack_size++;
+    }
 }
 
 // Trace what is left of the tree; false if the steps of this dispatch are used up before it is done.
 fn trace_tree() -> bool {
-    var current: Branch;
-    var waiting = false;
     loop {
         if steps >= film.head.tile.step_budget {
-            if waiting {
-                push(current);
-            }
-            return stack_size == 0u;
+            return false;
         }
         steps += LOOP_STEPS;
         // Refraction goes on, reflection waits: one entry a branching level.
-        if !waiting {
-            if stack_size == 0u {
-                break;
-            }
-            stack_size--;
-            current = film.lanes[lane].stack[stack_size];
-        }
         let next = follow(current);
-        waiting = next.found;
-        current = next.branch;
+        @if(bounces) {
+            if next.found {
+                current = next.branch;
+                continue;
+            }
+        }
+        @if(branches) {
+            if stack_size > 0u {
+                stack_size--;
+                current = film.lanes[lane].stack[stack_size];
+                continue;
+            }
+        }
+        break;
     }
     return true;
 }
@@ -145,7 +161,7 @@ fn follow(branch: Branch) -> Next {
     if !cut {
         count_ray(branch.kind);
         landing = find_surface(branch);
-        cut = landing.stuck;
+        @if(transmission) cut = landing.stuck;
     }
     if landing.found {
         next = shade(branch, landing);
@@ -169,28 +185,39 @@ fn count_ray(kind: u32) {
 // Follow a branch through interfaces that change no medium to the first surface that matters.
 fn find_surface(branch: Branch) -> Landing {
     var landing: Landing;
-    var origin = branch.origin;
-    landing.media = branch.media;
-    landing.distance = 0.0;
-    for (var i = 0u; i < MAX_PASSES; i++) {
-        steps += LOOP_STEPS;
-        let ray = make_ray(origin, branch.direction);
+    @if(!transmission) {
+        let ray = make_ray(branch.origin, branch.direction);
         let hit = intersect(ray, far());
-        if hit.id == NONE {
-            return landing;
-        }
-        landing.distance = landing.distance + hit.t;
-        landing.surface = resolve(ray, hit);
-        landing.media_behind = cross_face(landing.media, hit.id, hit.front);
-        let opaque = max3(vec3r(materials[landing.surface.material].transmission)) <= 0.0;
-        if opaque || current_medium(landing.media_behind) != current_medium(landing.media) {
+        if hit.id != NONE {
             landing.found = true;
-            return landing;
+            landing.distance = hit.t;
+            landing.surface = resolve(ray, hit);
         }
-        landing.media = landing.media_behind;
-        origin = spawn_behind(landing.surface);
     }
-    landing.stuck = true;
+    @if(transmission) {
+        var origin = branch.origin;
+        landing.media = branch.media;
+        landing.distance = 0.0;
+        for (var i = 0u; i < MAX_PASSES; i++) {
+            steps += LOOP_STEPS;
+            let ray = make_ray(origin, branch.direction);
+            let hit = intersect(ray, far());
+            if hit.id == NONE {
+                return landing;
+            }
+            landing.distance = landing.distance + hit.t;
+            landing.surface = resolve(ray, hit);
+            landing.media_behind = cross_face(landing.media, hit.id, hit.front);
+            let opaque = !is_transmissive(landing.surface.material);
+            if opaque || current_medium(landing.media_behind) != current_medium(landing.media) {
+                landing.found = true;
+                return landing;
+            }
+            landing.media = landing.media_behind;
+            origin = spawn_behind(landing.surface);
+        }
+        landing.stuck = true;
+    }
     return landing;
 }
 
@@ -214,11 +241,15 @@ fn see_background(branch: Branch, cut: bool) {
 // Add a surface's local light, and make its children: the one to go on with is returned, the other waits on the stack.
 fn shade(branch: Branch, landing: Landing) -> Next {
     let surface = landing.surface;
-    let before = current_medium(landing.media);
-    let behind = current_medium(landing.media_behind);
-    let weight = branch.weight * attenuation(before, landing.distance);
+    @if(transmission) let before = current_medium(landing.media);
+    @else let before = AIR;
+    @if(transmission) let behind = current_medium(landing.media_behind);
+    @else let behind = AIR;
+    @if(absorption) let weight = branch.weight * attenuation(before, landing.distance);
+    @else let weight = branch.weight;
     // Local light.
-    let local = direct(surface, branch.direction, landing.media);
+    @if(tinted_shadows) let local = direct(surface, branch.direction, landing.media);
+    @else let local = direct(surface, branch.direction);
     sample.radiance = sample.radiance + weight * local.radiance;
     sample.rays += local.shadow_rays;
     sample.rays_by_kind[RAY_SHADOW] += local.shadow_rays;
@@ -228,20 +259,35 @@ fn shade(branch: Branch, landing: Landing) -> Next {
             sample.aov = Aov(flush3(surface.normal), flush(landing.distance), surface.body, behind, vec2u(0u));
         }
     }
-    // Children.
-    let scattered = scatter(surface, branch.direction, before, behind);
-    let depth = branch.depth + 1u;
-    let reflection = Branch(
-        spawn_before(surface), landing.media, scattered.reflected, depth, weight * scattered.reflection, RAY_REFLECTION);
-    let refraction = Branch(
-        spawn_behind(surface), landing.media_behind, scattered.refracted, depth, weight * scattered.transmission,
-        RAY_REFRACTION);
-    if scattered.transmits && scattered.reflects {
-        push(reflection);
+    // Children: where there are two, reflection waits.
+    var next: Next;
+    @if(bounces) let scattered = scatter(surface, branch.direction, before, behind);
+    @if(reflection) {
+        if scattered.reflects {
+            next.found = true;
+            next.branch.origin = spawn_before(surface);
+            @if(transmission) next.branch.media = landing.media;
+            next.branch.direction = scattered.reflected;
+            next.branch.depth = branch.depth + 1u;
+            next.branch.weight = weight * scattered.reflection;
+            next.branch.kind = RAY_REFLECTION;
+        }
     }
-    var next = Next(scattered.transmits || scattered.reflects, refraction);
-    if !scattered.transmits {
-        next.branch = reflection;
+    @if(transmission) {
+        if scattered.transmits {
+            @if(branches) {
+                if next.found {
+                    push(next.branch);
+                }
+            }
+            next.found = true;
+            next.branch.origin = spawn_behind(surface);
+            next.branch.media = landing.media_behind;
+            next.branch.direction = scattered.refracted;
+            next.branch.depth = branch.depth + 1u;
+            next.branch.weight = weight * scattered.transmission;
+            next.branch.kind = RAY_REFRACTION;
+        }
     }
     return next;
 }

@@ -1,7 +1,7 @@
 //! The integration tests: one binary, one module per concern.
 
 mod cli;
-mod closed_forms;
+mod effects;
 mod fuzz;
 mod layering;
 mod lockstep;

@@ -8,7 +8,7 @@ use clap::ValueEnum;
 use clap::builder::PossibleValue;
 
 use crate::film::{AovKind, BitDepth, Metric, Tone};
-use crate::layout::{Backend, Float, Intersector, Precision};
+use crate::layout::{Backend, Effect, EffectChoice, EffectSet, Float, Intersector, Precision};
 
 /// Offer these values of a library type under these names, each with one line of help.
 macro_rules! words {
@@ -178,6 +178,23 @@ impl FromStr for Threshold {
     }
 }
 
+/// `auto`, `all`, `none`, or names of effects with commas.
+pub(super) fn effect_choice(text: &str) -> Result<EffectChoice, String> {
+    match text {
+        "auto" => Ok(EffectChoice::Auto),
+        "all" => Ok(EffectChoice::All),
+        "none" => Ok(EffectChoice::Only(EffectSet::NONE)),
+        names => names.split(',').map(effect).collect::<Result<_, _>>().map(EffectChoice::Only),
+    }
+}
+
+fn effect(name: &str) -> Result<Effect, String> {
+    Effect::ALL.into_iter().find(|effect| effect.name() == name.trim()).ok_or_else(|| {
+        let names = Effect::ALL.map(Effect::name).join(", ");
+        format!("expected auto, all, none, or names with commas; there is no effect {name:?}, but {names}")
+    })
+}
+
 /// A whole number in this range.
 pub(super) fn whole_in(text: &str, least: u32, most: u32) -> Result<u32, String> {
     match text.parse() {
@@ -234,6 +251,19 @@ mod tests {
         assert_eq!("differing-pixels=0".parse(), Ok(threshold));
         for wrong in ["rmse", "rmse=", "rmse=-1", "rmse=NaN", "psnr=30"] {
             assert!(wrong.parse::<Threshold>().is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn effects_are_chosen_by_name() {
+        assert_eq!(effect_choice("auto"), Ok(EffectChoice::Auto));
+        for effect in Effect::ALL {
+            assert_eq!(effect_choice(effect.name()), Ok(EffectChoice::Only(EffectSet::of(&[effect]))));
+        }
+        let two = EffectSet::of(&[Effect::Shadows, Effect::Specular]);
+        assert_eq!(effect_choice("specular, shadows"), Ok(EffectChoice::Only(two)));
+        for wrong in ["", "shadow", "auto,all", "shadows,"] {
+            assert!(effect_choice(wrong).unwrap_err().contains("tinted-shadows"), "{wrong}");
         }
     }
 

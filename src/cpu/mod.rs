@@ -9,10 +9,11 @@ use rayon::prelude::*;
 
 use crate::film::{Frame, Progress, RayCounts, Renderer, TraceTimes};
 use crate::kernel::whitted::{Branch, trace_pixel};
-use crate::kernel::{Real, World};
-use crate::layout::{Aov, FlatScene, Float, Precision, Settings, Texel, View};
+use crate::kernel::{Real, Simulation, World};
+use crate::layout::{Aov, FlatScene, Float, Precision, Scan, Settings, Texel, View};
 
-/// Side of a tile in pixels, if none is asked for: small enough to balance the end of a frame, large enough to amortise its bookkeeping.
+/// Side of a tile in pixels, if none is asked for: small enough to balance the end of a frame, large enough to amortise
+/// its bookkeeping.
 const TILE: u32 = 16;
 
 /// The CPU cannot start its threads.
@@ -26,6 +27,8 @@ pub struct CpuError {
 /// Traces a scene on the CPU. The picture does not depend on the number of threads.
 pub struct CpuRenderer<'a> {
     scene: &'a FlatScene,
+    /// What the scene calls for.
+    scan: Scan,
     pool: rayon::ThreadPool,
     tile: u32,
 }
@@ -48,7 +51,7 @@ impl<'a> CpuRenderer<'a> {
             .num_threads(threads)
             .build()
             .map_err(|source| CpuError { threads, source })?;
-        Ok(Self { scene, pool, tile: tile.max(1) })
+        Ok(Self { scene, scan: Scan::of(scene), pool, tile: tile.max(1) })
     }
 
     /// How many threads trace.
@@ -67,7 +70,10 @@ impl Renderer for CpuRenderer<'_> {
         settings: &Settings,
         progress: &dyn Progress,
     ) -> Result<Frame, CpuError> {
-        let world = World { scene: self.scene, view, intersector: settings.intersector };
+        let plan = self.scan.effects(settings).plan(settings);
+        let view = &plan.applied_to(view);
+        let world =
+            World { scene: self.scene, view, intersector: settings.intersector, effects: plan.effects };
         Ok(self.pool.install(|| match settings.precision {
             Precision::F32 => render::<f32>(&world, settings, self.tile, progress),
             Precision::F64 => render::<f64>(&world, settings, self.tile, progress),
@@ -85,7 +91,12 @@ struct Tile {
     rays: [u64; 4],
 }
 
-fn render<R: Real>(world: &World, settings: &Settings, side: u32, progress: &dyn Progress) -> Frame {
+fn render<R: Real>(
+    world: &World<impl Simulation>,
+    settings: &Settings,
+    side: u32,
+    progress: &dyn Progress,
+) -> Frame {
     let [_, _, width, height] = world.view.crop;
     let pixels = width as usize * height as usize;
     let frame = Mutex::new(Frame {
@@ -125,7 +136,7 @@ fn render<R: Real>(world: &World, settings: &Settings, side: u32, progress: &dyn
 }
 
 fn trace_tile<R: Real>(
-    world: &World,
+    world: &World<impl Simulation>,
     stack: &mut Vec<Branch<R>>,
     side: u32,
     [column, row]: [u32; 2],

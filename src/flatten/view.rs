@@ -67,7 +67,7 @@ mod tests {
     use super::*;
     use crate::flatten::flatten;
     use crate::flatten::samples::{ICE, WATER, cube, cuboid, model, scene_of};
-    use crate::layout::{Float, Intersector, Precision};
+    use crate::layout::{EffectChoice, Float, Intersector, Precision};
 
     const SETTINGS: Settings = Settings {
         depth: 7,
@@ -77,6 +77,7 @@ mod tests {
         float: Float::Strict,
         intersector: Intersector::Watertight,
         aovs: false,
+        effects: EffectChoice::Auto,
     };
 
     #[test]

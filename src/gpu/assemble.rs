@@ -75,7 +75,7 @@ fn join(
         .use_sourcemap(true)
         .set_mangler(ManglerKind::None);
     for (name, on) in variant.features() {
-        compiler.set_feature(name, if on { Feature::Enable } else { Feature::Disable });
+        compiler.set_feature(&name, if on { Feature::Enable } else { Feature::Disable });
     }
     let joined = compiler.compile(&module_path(root)).map_err(|error| shader_error(error, files, root))?;
     Ok(SourceMap::print(&joined, files, root))

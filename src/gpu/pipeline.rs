@@ -104,7 +104,7 @@ pub(super) fn compile(
 fn module(context: &Context, shader: &Shader, variant: &Variant) -> Result<wgpu::ShaderModule, GpuError> {
     match variant.float {
         Float::Strict => {
-            let words = write_spirv(shader, variant)?;
+            let words = write_spirv(shader, variant, &context.adapter.promises)?;
             let entry_points: Vec<_> = shader.module.entry_points.iter().map(entry_point).collect();
             let descriptor = wgpu::ShaderModuleDescriptorPassthrough {
                 label: Some("strict"),
@@ -142,12 +142,13 @@ mod tests {
     use super::super::SOURCES;
     use super::super::testing::PLAIN;
     use super::*;
+    use crate::layout::EffectSet;
 
     #[test]
     fn the_invocations_of_a_dispatch_take_tens_of_megabytes() {
         for precision in [Precision::F32, Precision::F64] {
             for stack_size in [2, 18, 66] {
-                let variant = Variant { precision, stack_size, aovs: true, ..PLAIN };
+                let variant = Variant { precision, stack_size, effects: EffectSet::ALL, ..PLAIN };
                 let bytes = texels_at(&assemble(SOURCES, "render", "render", &variant).unwrap().module);
                 assert!((8 << 20..33 << 20).contains(&bytes), "{variant:?}: {bytes}");
             }

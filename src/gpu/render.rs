@@ -12,7 +12,7 @@ use super::pace::Pace;
 use super::pipeline::Compiled;
 use super::{AdapterReport, GpuError, GpuOptions, Portions, SOURCES, Source, Variant, pipeline};
 use crate::film::{Frame, Progress, RayCounts, Renderer, TraceTimes};
-use crate::layout::{FlatScene, Float, Settings, Tile, View};
+use crate::layout::{FlatScene, Float, Plan, Scan, Settings, Tile, View};
 
 /// File and name of the entry point.
 const ENTRY: (&str, &str) = ("render", "render");
@@ -24,6 +24,8 @@ pub struct GpuRenderer {
     scene: SceneBuffers,
     /// Of the deepest tree so far: its stack serves the others.
     bvh_depth: u32,
+    /// What the scene calls for.
+    scan: Scan,
     /// What the upload took, until a frame has told it.
     upload: Duration,
     pipelines: HashMap<Variant, Compiled>,
@@ -59,6 +61,7 @@ impl GpuRenderer {
             sources,
             scene: buffers,
             bvh_depth: scene.bvh_depth,
+            scan: Scan::of(scene),
             upload: start.elapsed(),
             pipelines: HashMap::new(),
             film: None,
@@ -92,13 +95,19 @@ impl GpuRenderer {
         let start = Instant::now();
         self.scene = SceneBuffers::new(&self.context, scene)?;
         self.bvh_depth = self.bvh_depth.max(scene.bvh_depth);
+        self.scan = Scan::of(scene);
         self.upload = start.elapsed();
         Ok(())
     }
 
+    /// What is simulated under these settings.
+    fn plan(&self, settings: &Settings) -> Plan {
+        self.scan.effects(settings).plan(settings)
+    }
+
     /// The variant for these settings: fast where the adapter cannot be strict.
     fn variant(&self, settings: &Settings) -> Variant {
-        let variant = Variant::new(self.bvh_depth, settings);
+        let variant = Variant::new(self.bvh_depth, settings, &self.plan(settings));
         let float = if self.context.adapter.strict_float { variant.float } else { Float::Fast };
         Variant { float, ..variant }
     }
@@ -110,10 +119,10 @@ impl GpuRenderer {
         let [_, _, width, height] = view.crop;
         let blocks = Blocks::new(width, height);
         let limit = self.context.largest_binding();
-        let most_pixels = FilmBuffer::most_pixels(limit, compiled.texels_at, variant.aovs);
+        let most_pixels = FilmBuffer::most_pixels(limit, compiled.texels_at, variant.aovs());
         let band_height = blocks.band_height(most_pixels.min(self.band_pixels));
         let pixels = u64::from(width) * u64::from(band_height);
-        let film = self.film(compiled.texels_at, pixels, variant.aovs)?;
+        let film = self.film(compiled.texels_at, pixels, variant.aovs())?;
         self.scene.set_view(&self.context, view);
         let group = self.scene.bind(&self.context, &film.buffer);
         let job =
@@ -163,6 +172,7 @@ impl Renderer for GpuRenderer {
         let start = Instant::now();
         let upload = std::mem::take(&mut self.upload);
         let variant = self.variant(settings);
+        let view = &self.plan(settings).applied_to(view);
         let job = self.prepare(view, &variant)?;
         let blocks = job.blocks;
         let times = TraceTimes { upload, compile: start.elapsed(), ..TraceTimes::default() };
@@ -170,7 +180,7 @@ impl Renderer for GpuRenderer {
             width: blocks.width,
             height: blocks.height,
             texels: Vec::new(),
-            aovs: variant.aovs.then(Vec::new),
+            aovs: variant.aovs().then(Vec::new),
             float: variant.float,
             rays: RayCounts::default(),
             times,

@@ -19,6 +19,7 @@ pub const SOURCES: &[Source<'static>] = sources! {
     "math"
     "media"
     "probe"
+    "probe_paths"
     "probe_plain"
     "probe_rays"
     "probe_scene"

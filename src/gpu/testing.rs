@@ -13,7 +13,7 @@ use crate::cpu::CpuRenderer;
 use crate::film::{Frame, Renderer};
 use crate::flatten::{flatten, view};
 use crate::gpu;
-use crate::layout::{FlatScene, Float, Intersector, Precision, Settings, View};
+use crate::layout::{Effect, EffectSet, FlatScene, Float, Intersector, Lights, Precision, Settings, View};
 use crate::scene::Scene;
 
 pub(super) use devices::{find, on_each};
@@ -23,7 +23,8 @@ pub(super) const PLAIN: Variant = Variant {
     precision: Precision::F32,
     float: Float::Strict,
     intersector: Intersector::Watertight,
-    aovs: false,
+    effects: EffectSet::ALL.without(Effect::Aovs),
+    lights: Lights::Many,
     stack_size: 16,
     bvh_stack: 24,
 };

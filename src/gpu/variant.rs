@@ -1,12 +1,12 @@
 //! One assembly of the shaders: what is chosen before they are compiled.
 
 use crate::layout::constants::{BLOCK, ROUNDOFF_F32, ROUNDOFF_F64, SHARED, Shared};
-use crate::layout::{Float, Intersector, Precision, Settings};
+use crate::layout::{Effect, EffectSet, Float, Intersector, Lights, Plan, Precision, Settings};
 
 /// Bytes of a waiting ray in f32; in f64 twice as many.
 const BRANCH_BYTES: u32 = 48;
-/// Waiting rays that the rest of an invocation's memory counts for: the sample in work.
-const SAMPLE_BRANCHES: u32 = 3;
+/// Waiting rays that the rest of an invocation's memory counts for: the sample and the ray in work.
+const SAMPLE_BRANCHES: u32 = 4;
 /// Bytes that the invocations of one dispatch may take.
 const LANE_MEMORY: u32 = 32 << 20;
 /// Blocks of a dispatch, however deep their stacks.
@@ -23,25 +23,29 @@ pub struct Variant {
     pub float: Float,
     /// Feature `moller_trumbore`.
     pub intersector: Intersector,
-    /// Feature `aovs`: the film holds [`Aov`](crate::layout::Aov)s.
-    pub aovs: bool,
-    /// Pending rays of a tree: one for each branching level. Constant `STACK_SIZE`.
+    /// A feature for each effect, under its name with `_` for `-`. With `aovs` the film holds
+    /// [`Aov`](crate::layout::Aov)s.
+    pub effects: EffectSet,
+    /// Feature `lights` where there are any, and `one_light`.
+    pub lights: Lights,
+    /// Pending rays of a tree beside the one in work: one for each branching level. Constant `STACK_SIZE`; feature
+    /// `branches` where it is not 0.
     pub stack_size: u32,
     /// Pending nodes of a traversal. Constant `BVH_STACK`.
     pub bvh_stack: u32,
 }
 
 impl Variant {
-    /// The variant that traces so through a BVH of `bvh_depth` nodes from root to leaf.
+    /// The variant that simulates a plan through a BVH of `bvh_depth` nodes from root to leaf.
     #[must_use]
-    pub fn new(bvh_depth: u32, settings: &Settings) -> Self {
+    pub fn new(bvh_depth: u32, settings: &Settings, plan: &Plan) -> Self {
         Self {
             precision: settings.precision,
             float: settings.float,
             intersector: settings.intersector,
-            aovs: settings.aovs,
-            // Every level down to the cut one may leave its reflection waiting, and a rest the current ray.
-            stack_size: settings.depth + 2,
+            effects: plan.effects,
+            lights: plan.lights,
+            stack_size: plan.waiting,
             bvh_stack: bvh_depth.saturating_sub(1).max(1),
         }
     }
@@ -58,14 +62,26 @@ impl Variant {
         (LANE_MEMORY / (lane * BLOCK * BLOCK)).clamp(LEAST_BLOCKS, MOST_BLOCKS)
     }
 
-    /// What `@if(…)` asks for, and the answers.
+    /// Whether the film holds [`Aov`](crate::layout::Aov)s.
     #[must_use]
-    pub fn features(&self) -> [(&'static str, bool); 3] {
-        [
+    pub fn aovs(&self) -> bool {
+        self.effects.has(Effect::Aovs)
+    }
+
+    /// What `@if(…)` asks for, and the answers.
+    pub fn features(&self) -> impl Iterator<Item = (String, bool)> {
+        let bounces = self.effects.has(Effect::Reflection) || self.effects.has(Effect::Transmission);
+        let own = [
             ("f64", self.precision == Precision::F64),
             ("moller_trumbore", self.intersector == Intersector::MollerTrumbore),
-            ("aovs", self.aovs),
-        ]
+            ("lights", self.lights != Lights::None),
+            ("one_light", self.lights == Lights::One),
+            // A surface may send a ray on; and two of them.
+            ("bounces", bounces),
+            ("branches", bounces && self.stack_size > 0),
+        ];
+        let effects = Effect::ALL.map(|effect| (effect.name().replace('-', "_"), self.effects.has(effect)));
+        own.map(|(name, on)| (name.to_owned(), on)).into_iter().chain(effects)
     }
 
     /// The shader module `package::constants`: the shared numbers, and those of this variant.

@@ -1,13 +1,14 @@
 //! What a ray that meets nothing sees. Twin of `shaders/background.wgsl`.
 
+use crate::layout::Effect;
 use crate::layout::constants::{INV_PI, NONE};
 
 use super::texture::{blend, float_word, footprint};
-use super::{Real, Vec3, World};
+use super::{Real, Simulation, Vec3, World};
 
 /// Radiance from infinity along a unit direction.
-pub fn background<R: Real>(world: &World, direction: Vec3<R>) -> Vec3<R> {
-    if world.view.environment != NONE {
+pub fn background<R: Real>(world: &World<impl Simulation>, direction: Vec3<R>) -> Vec3<R> {
+    if world.view.environment != NONE && world.simulates(Effect::Environment) {
         return environment(world, direction);
     }
     let horizon = Vec3::load(world.view.horizon);
@@ -17,7 +18,7 @@ pub fn background<R: Real>(world: &World, direction: Vec3<R>) -> Vec3<R> {
 }
 
 /// The equirectangular picture: its centre towards −Z, +X to the right of it, +Y up; bilinear.
-pub fn environment<R: Real>(world: &World, direction: Vec3<R>) -> Vec3<R> {
+pub fn environment<R: Real>(world: &World<impl Simulation>, direction: Vec3<R>) -> Vec3<R> {
     let view = world.view;
     let d = direction;
     let azimuth = R::arctangent(d.x, -d.z);
@@ -43,7 +44,7 @@ pub fn environment<R: Real>(world: &World, direction: Vec3<R>) -> Vec3<R> {
 }
 
 /// Texel `i` of the picture.
-pub fn linear_texel<R: Real>(world: &World, i: u32) -> Vec3<R> {
+pub fn linear_texel<R: Real>(world: &World<impl Simulation>, i: u32) -> Vec3<R> {
     let first = world.view.environment + i * 3;
     Vec3::new(float_word(world, first), float_word(world, first + 1), float_word(world, first + 2))
 }

@@ -8,10 +8,12 @@
 //! winning triangle is ever culled.
 
 use crate::layout::Triangle;
-use crate::layout::constants::{FAR, LEAST_DIRECTION, MAX_BVH_DEPTH, NONE, ORIGIN_PADDING, SLAB_PADDING};
+use crate::layout::constants::{
+    FAR, LEAST_DIRECTION, MAX_BVH_DEPTH, MOST_REACH, NONE, ORIGIN_PADDING, SLAB_PADDING,
+};
 
 use super::triangle::{Shear, intersect_triangle, shear_of};
-use super::{Real, Vec3, World};
+use super::{Real, Simulation, Vec3, World};
 
 /// A ray, prepared for boxes and triangles.
 #[derive(Debug, Clone, Copy)]
@@ -57,7 +59,7 @@ pub struct Span<R> {
 }
 
 /// Prepare a ray.
-pub fn make_ray<R: Real>(world: &World, origin: Vec3<R>, direction: Vec3<R>) -> Ray<R> {
+pub fn make_ray<R: Real>(world: &World<impl Simulation>, origin: Vec3<R>, direction: Vec3<R>) -> Ray<R> {
     let to_lo = (origin - Vec3::load(world.view.scene_lo)).abs();
     let to_hi = (origin - Vec3::load(world.view.scene_hi)).abs();
     let reach = to_lo.x.greatest(to_hi.x) + to_lo.y.greatest(to_hi.y) + to_lo.z.greatest(to_hi.z);
@@ -96,7 +98,7 @@ pub fn slabs<R: Real>(ray: &Ray<R>, lo: Vec3<R>, hi: Vec3<R>) -> Span<R> {
 }
 
 /// The hit on one triangle if it is nearer than `best`, or as near with a lower id; else `best`.
-pub fn nearer<R: Real>(world: &World, ray: &Ray<R>, index: u32, best: Hit<R>) -> Hit<R> {
+pub fn nearer<R: Real>(world: &World<impl Simulation>, ray: &Ray<R>, index: u32, best: Hit<R>) -> Hit<R> {
     let tri = &world.scene.triangles[index as usize];
     let Some(c) = intersect_triangle(world.intersector, ray.origin, ray.direction, &ray.shear, tri) else {
         return best;
@@ -124,18 +126,29 @@ pub fn triangle_slabs<R: Real>(ray: &Ray<R>, tri: &Triangle) -> Span<R> {
 }
 
 /// The nearest triangle in (0, limit), ties to the lowest primitive id.
-pub fn intersect<R: Real>(world: &World, ray: &Ray<R>, limit: R) -> Hit<R> {
+pub fn intersect<R: Real>(world: &World<impl Simulation>, ray: &Ray<R>, limit: R) -> Hit<R> {
     traverse(world, ray, limit, false)
 }
 
 /// Whether any triangle lies in (0, limit): for scenes in which every blocker is opaque.
-pub fn occluded<R: Real>(world: &World, ray: &Ray<R>, limit: R) -> bool {
+pub fn occluded<R: Real>(world: &World<impl Simulation>, ray: &Ray<R>, limit: R) -> bool {
     traverse(world, ray, limit, true).id != NONE
 }
 
+/// Whether a scene can make such a ray: one with a NaN would enter every box, for comparisons tell nothing about it, and
+/// so would one from so far that the padding swallows the scene.
+pub fn is_usable<R: Real>(ray: &Ray<R>) -> bool {
+    let d = ray.direction.abs();
+    // The padding of each component holds all of the origin.
+    ray.origin_hi.x.abs() + d.x + d.y + d.z < R::of(MOST_REACH)
+}
+
 /// Walk the tree: to the nearest hit, or if `any` will do to the first that is found.
-pub fn traverse<R: Real>(world: &World, ray: &Ray<R>, limit: R, any: bool) -> Hit<R> {
+pub fn traverse<R: Real>(world: &World<impl Simulation>, ray: &Ray<R>, limit: R, any: bool) -> Hit<R> {
     let mut best = Hit { t: limit, id: 0, index: NONE, b1: R::ZERO, b2: R::ZERO, front: false };
+    if !is_usable(ray) {
+        return Hit { id: NONE, ..best };
+    }
     let mut stack = [0u32; MAX_BVH_DEPTH as usize];
     let mut size = 0;
     let mut at = 0u32;

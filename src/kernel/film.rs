@@ -1,9 +1,9 @@
 //! Stop 7 of 7: film. Twin of `shaders/film.wgsl`.
 
 use crate::layout::constants::LEAST_NORMAL;
-use crate::layout::{Aov, Texel};
+use crate::layout::{Aov, Effect, Texel};
 
-use super::{Real, Vec3, World};
+use super::{Real, Simulation, Vec3, World};
 
 /// What one sample gives the film.
 #[derive(Debug, Clone, Copy)]
@@ -27,7 +27,7 @@ pub struct Sample<R> {
 }
 
 /// Add sample `index` to a pixel's running sums; the last one divides them by the number of samples.
-pub fn add<R: Real>(world: &World, texel: &mut Texel, sample: &Sample<R>, index: u32) {
+pub fn add<R: Real>(world: &World<impl Simulation>, texel: &mut Texel, sample: &Sample<R>, index: u32) {
     let r = sample.radiance;
     texel.radiance[0] += flush(r.x);
     texel.radiance[1] += flush(r.y);
@@ -39,7 +39,7 @@ pub fn add<R: Real>(world: &World, texel: &mut Texel, sample: &Sample<R>, index:
         texel.primitive_hash = sample.primitive_hash;
         texel.body_hash = sample.body_hash;
     }
-    if index + 1 == world.view.samples {
+    if world.view.samples > 1 && index + 1 == world.view.samples && world.simulates(Effect::Antialiasing) {
         let n = world.view.samples as i32 as f32;
         texel.radiance[0] = flush(texel.radiance[0] / n);
         texel.radiance[1] = flush(texel.radiance[1] / n);

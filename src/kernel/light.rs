@@ -1,14 +1,15 @@
 //! Stop 5 of 7: light. Twin of `shaders/light.wgsl`.
 
+use crate::layout::Effect;
 use crate::layout::constants::{MAX_PASSES, NONE};
 
 use super::bvh::{intersect, make_ray, occluded};
-use super::material::shadow_transmission;
+use super::material::{is_transmissive, shadow_transmission};
 use super::math::{dot3, length3, max3};
 use super::media::{attenuation, cross_face, current_medium};
 use super::surface::{Surface, resolve, spawn_behind};
 use super::texture::texture_color;
-use super::{Real, Vec3, World};
+use super::{Real, Simulation, Vec3, World};
 
 /// What the point lights and the ambient light give a surface.
 #[derive(Debug, Clone, Copy)]
@@ -22,15 +23,23 @@ pub struct Direct<R> {
 }
 
 /// The local terms ka·Ia + Σj Tj·Ij·[kd·(n·lj) + ks·(s·rj)^β], lights in order.
-pub fn direct<R: Real>(world: &World, surface: &Surface<R>, direction: Vec3<R>, media: u32) -> Direct<R> {
+pub fn direct<R: Real>(
+    world: &World<impl Simulation>,
+    surface: &Surface<R>,
+    direction: Vec3<R>,
+    media: u32,
+) -> Direct<R> {
     let m = &world.scene.materials[surface.material as usize];
-    let tint =
-        if m.texture == NONE { Vec3::one() } else { texture_color(world, surface.material, surface.uv) };
+    let mut tint = Vec3::one();
+    if m.texture != NONE && world.simulates(Effect::Textures) {
+        tint = texture_color(world, surface.material, surface.uv);
+    }
     let ambient = Vec3::load(m.ambient) * tint;
     let diffuse = Vec3::load(m.diffuse) * tint;
     let specular = Vec3::load(m.specular);
+    let shines = max3(specular) > R::ZERO;
     let mut result = Direct { radiance: ambient * Vec3::load(world.view.ambient), seen: 0, shadow_rays: 0 };
-    if max3(diffuse) <= R::ZERO && max3(specular) <= R::ZERO {
+    if max3(diffuse) <= R::ZERO && !shines {
         return result;
     }
     let origin = surface.shadow_point + surface.face_normal * surface.offset;
@@ -45,19 +54,26 @@ pub fn direct<R: Real>(world: &World, surface: &Surface<R>, direction: Vec3<R>, 
         if !lit {
             continue;
         }
-        let lobe = phong(surface.normal, l, direction, cosine, R::real(m.shininess), specular);
-        result.shadow_rays += 1;
-        let t = transmittance(world, origin, l, distance, Vec3::load(light.position), media);
-        if max3(t) <= R::ZERO {
-            continue;
+        let mut t = Vec3::one();
+        if world.simulates(Effect::Shadows) {
+            result.shadow_rays += 1;
+            t = transmittance(world, origin, l, distance, Vec3::load(light.position), media);
+            if max3(t) <= R::ZERO {
+                continue;
+            }
         }
         result.seen ^= 1 << (j & 31);
         let mut intensity = Vec3::load(light.intensity);
-        if light.inverse_square != 0 {
+        if light.inverse_square != 0 && world.simulates(Effect::Falloff) {
             let d2 = distance * distance;
             intensity = Vec3::new(intensity.x / d2, intensity.y / d2, intensity.z / d2);
         }
-        result.radiance = result.radiance + t * intensity * (diffuse * cosine + lobe);
+        let mut local = diffuse * cosine;
+        if shines && world.simulates(Effect::Specular) {
+            let lobe = phong(surface.normal, l, direction, cosine, R::real(m.shininess), specular);
+            local = local + lobe;
+        }
+        result.radiance = result.radiance + t * intensity * local;
     }
     result
 }
@@ -81,7 +97,7 @@ pub fn phong<R: Real>(
 
 /// Tj: what comes straight, unrefracted, from a light to a point in the given media, per channel.
 pub fn transmittance<R: Real>(
-    world: &World,
+    world: &World<impl Simulation>,
     origin: Vec3<R>,
     l: Vec3<R>,
     distance: R,
@@ -89,7 +105,7 @@ pub fn transmittance<R: Real>(
     media: u32,
 ) -> Vec3<R> {
     // Where every body is opaque one blocker decides, whichever it is.
-    if world.view.transmissive_bodies == 0 {
+    if world.view.transmissive_bodies == 0 || !world.simulates(Effect::TintedShadows) {
         let blocked = occluded(world, &make_ray(world, origin, l), distance);
         return if blocked { Vec3::zero() } else { Vec3::one() };
     }
@@ -104,10 +120,10 @@ pub fn transmittance<R: Real>(
         if hit.id == NONE {
             return result * attenuation(world, medium, left);
         }
-        let surface = resolve(world, &ray, &hit);
-        if max3(Vec3::<R>::load(world.scene.materials[surface.material as usize].transmission)) <= R::ZERO {
+        if !is_transmissive(world, world.scene.attributes[hit.id as usize].material) {
             return Vec3::zero();
         }
+        let surface = resolve(world, &ray, &hit);
         result = result * attenuation(world, medium, hit.t);
         let next = cross_face(world, mask, hit.id, hit.front);
         let behind = current_medium(world, next);

@@ -1,11 +1,13 @@
 //! Stop 6 of 7: material. Twin of `shaders/material.wgsl`.
 
+use crate::layout::Effect;
+
 use super::math::{dot3, max3, unit3};
 use super::surface::{Surface, turn_towards};
-use super::{Real, Vec3, World};
+use super::{Real, Simulation, Vec3, World};
 
 /// Where light goes on from a surface, and with which weights.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Scatter<R> {
     /// Unit direction of the reflected ray, on the arriving side.
     pub reflected: Vec3<R>,
@@ -54,7 +56,7 @@ pub fn fresnel<R: Real>(c: R, eta: R) -> Fresnel<R> {
 
 /// Reflect and refract at an interface between two media, given by their material indices.
 pub fn scatter<R: Real>(
-    world: &World,
+    world: &World<impl Simulation>,
     surface: &Surface<R>,
     direction: Vec3<R>,
     before: u32,
@@ -63,45 +65,50 @@ pub fn scatter<R: Real>(
     let m = &world.scene.materials[surface.material as usize];
     let kr = Vec3::load(m.reflection);
     let kt = Vec3::load(m.transmission);
+    let mut result = Scatter::default();
+    // Opaque matter has its own index behind the face.
+    let transparent = is_transmissive(world, surface.material);
+    if max3(kr) <= R::ZERO && !transparent {
+        return result;
+    }
     let n = surface.normal;
     let c = (R::ZERO - dot3(direction, n)).greatest(R::ZERO).least(R::ONE);
-    // Opaque matter has its own index behind the face.
-    let transparent = max3(kt) > R::ZERO;
     let inner = if transparent { behind } else { surface.material };
     let eta = index_of::<R>(world, inner) / index_of::<R>(world, before);
     let f = fresnel(c, eta);
-    // Mirror direction, kept on the arriving side of the face.
-    let mirrored = direction + n * (c + c);
-    let reflected = turn_towards(mirrored, surface.face_normal);
-    // Snell: η t = d − (g − c) n, kept on the other side.
-    let refracted = if f.bend == R::ZERO {
-        direction
-    } else {
-        let bent = direction - n * f.bend;
-        turn_towards(unit3(bent), -surface.face_normal)
-    };
+    let weighted = m.fresnel != 0 && world.simulates(Effect::Fresnel);
     let total = transparent && f.total;
-    let mut reflection = kr;
-    let mut transmission = kt;
-    if m.fresnel != 0 {
-        reflection = kr * f.reflectance;
-        transmission = kt * (R::ONE - f.reflectance);
-    } else if total {
-        reflection = kr + kt;
+    // Mirror direction, kept on the arriving side of the face.
+    if (max3(kr) > R::ZERO || (total && !weighted)) && world.simulates(Effect::Reflection) {
+        let mirrored = direction + n * (c + c);
+        result.reflects = true;
+        result.reflected = turn_towards(mirrored, surface.face_normal);
+        result.reflection = kr;
+        if weighted {
+            result.reflection = kr * f.reflectance;
+        } else if total {
+            result.reflection = kr + kt;
+        }
     }
-    Scatter {
-        reflected,
-        reflection,
-        refracted,
-        transmission,
-        reflects: max3(kr) > R::ZERO || (total && m.fresnel == 0),
-        transmits: transparent && !total,
+    // Snell: η t = d − (g − c) n, kept on the other side.
+    if transparent && !total {
+        result.transmits = true;
+        result.refracted = direction;
+        if f.bend != R::ZERO {
+            let bent = direction - n * f.bend;
+            result.refracted = turn_towards(unit3(bent), -surface.face_normal);
+        }
+        result.transmission = kt;
+        if weighted {
+            result.transmission = kt * (R::ONE - f.reflectance);
+        }
     }
+    result
 }
 
 /// What an interface lets through to a shadow ray: kt, or kt(1−R) with R taken from the rarer side, never total.
 pub fn shadow_transmission<R: Real>(
-    world: &World,
+    world: &World<impl Simulation>,
     surface: &Surface<R>,
     direction: Vec3<R>,
     before: u32,
@@ -109,7 +116,7 @@ pub fn shadow_transmission<R: Real>(
 ) -> Vec3<R> {
     let m = &world.scene.materials[surface.material as usize];
     let kt = Vec3::load(m.transmission);
-    if m.fresnel == 0 {
+    if m.fresnel == 0 || !world.simulates(Effect::Fresnel) {
         return kt;
     }
     let c = dot3(direction, surface.normal).abs().least(R::ONE);
@@ -118,8 +125,14 @@ pub fn shadow_transmission<R: Real>(
     kt * (R::ONE - fresnel(c, eta).reflectance)
 }
 
+/// Whether a material lets light through.
+pub fn is_transmissive(world: &World<impl Simulation>, material: u32) -> bool {
+    let kt = world.scene.materials[material as usize].transmission;
+    max3(Vec3::<f32>::load(kt)) > 0.0 && world.simulates(Effect::Transmission)
+}
+
 /// Refractive index of a medium.
-pub fn index_of<R: Real>(world: &World, medium: u32) -> R {
+pub fn index_of<R: Real>(world: &World<impl Simulation>, medium: u32) -> R {
     R::real(world.scene.materials[medium as usize].ior)
 }
 

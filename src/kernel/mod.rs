@@ -22,4 +22,4 @@ mod world;
 
 pub use real::Real;
 pub use vector::Vec3;
-pub use world::World;
+pub use world::{Simulation, World};

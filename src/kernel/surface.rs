@@ -1,11 +1,11 @@
 //! Stop 4 of 7: surface. Twin of `shaders/surface.wgsl`.
 
-use crate::layout::Corner;
-use crate::layout::constants::{NONE, SPAWN_ROUNDOFFS};
+use crate::layout::constants::{EDGE_OFFSETS, NONE, SPAWN_ROUNDOFFS};
+use crate::layout::{Corner, Effect};
 
 use super::bvh::{Hit, Ray};
 use super::math::{dot3, unit3};
-use super::{Real, Vec3, World};
+use super::{Real, Simulation, Vec3, World};
 
 /// A point on a face, as the ray that found it sees it.
 #[derive(Debug, Clone, Copy, Default)]
@@ -33,20 +33,25 @@ pub struct Surface<R> {
 }
 
 /// Everything that shading needs at a hit.
-pub fn resolve<R: Real>(world: &World, ray: &Ray<R>, hit: &Hit<R>) -> Surface<R> {
+pub fn resolve<R: Real>(world: &World<impl Simulation>, ray: &Ray<R>, hit: &Hit<R>) -> Surface<R> {
     let tri = &world.scene.triangles[hit.index as usize];
     let face = &world.scene.attributes[hit.id as usize];
     let (v0, v1, v2) = (Vec3::load(tri.v0), Vec3::load(tri.v1), Vec3::load(tri.v2));
     let b0 = R::ONE - hit.b1 - hit.b2;
     // The point; how far rounding may put it off the face, and a leaving ray's test of this very face off the point.
     let (p0, p1, p2) = (v0 * b0, v1 * hit.b1, v2 * hit.b2);
-    let point = p0 + p1 + p2;
+    let weighted = p0 + p1 + p2;
     let size = p0.abs() + p1.abs() + p2.abs();
     let extent = (v1 - v0).abs() + (v2 - v0).abs();
     let outward = Vec3::load(face.normal);
     let face_normal = if hit.front { outward } else { -outward };
     let reach = dot3(face_normal.abs(), size) + (extent.x + extent.y + extent.z);
     let offset = reach * (R::of(SPAWN_ROUNDOFFS) * R::of(R::ROUNDOFF));
+    let least = R::of(EDGE_OFFSETS) * offset / (extent.x + extent.y + extent.z);
+    let point = weighted
+        + off_edge(weighted, v0, b0, least)
+        + off_edge(weighted, v1, hit.b1, least)
+        + off_edge(weighted, v2, hit.b2, least);
     let mut surface = Surface {
         point,
         offset,
@@ -60,7 +65,7 @@ pub fn resolve<R: Real>(world: &World, ray: &Ray<R>, hit: &Hit<R>) -> Surface<R>
         front: hit.front,
     };
     // Smooth normals and texture coordinates.
-    if face.corners != NONE {
+    if face.corners != NONE && world.simulates(Effect::SmoothNormals) {
         let c0 = &world.scene.corners[face.corners as usize];
         let c1 = &world.scene.corners[face.corners as usize + 1];
         let c2 = &world.scene.corners[face.corners as usize + 2];
@@ -77,6 +82,12 @@ pub fn resolve<R: Real>(world: &World, ray: &Ray<R>, hit: &Hit<R>) -> Surface<R>
             point + lift(point, v0, n0) * b0 + lift(point, v1, n1) * hit.b1 + lift(point, v2, n2) * hit.b2;
     }
     surface
+}
+
+/// What moves a point that lies on the edge opposite a corner, or nearly so, towards that corner, until the corner's
+/// weight is `least`; nothing for others.
+pub fn off_edge<R: Real>(point: Vec3<R>, corner: Vec3<R>, weight: R, least: R) -> Vec3<R> {
+    (corner - point) * (least - weight).greatest(R::ZERO)
 }
 
 /// A corner's shading normal on the ray's side.

@@ -1,6 +1,6 @@
 //! Texture lookups by hand, from texels in a buffer: samplers round as they like. Twin of `shaders/texture.wgsl`.
 
-use super::{Real, Vec3, World};
+use super::{Real, Simulation, Vec3, World};
 
 /// The four texels around a point, and the weights of the right and lower ones.
 #[derive(Debug, Clone, Copy)]
@@ -16,7 +16,7 @@ pub struct Footprint<R> {
 }
 
 /// A repeating 8-bit sRGB texture at (u, v), v upwards, bilinear in linear light.
-pub fn texture_color<R: Real>(world: &World, material: u32, uv: [R; 2]) -> Vec3<R> {
+pub fn texture_color<R: Real>(world: &World<impl Simulation>, material: u32, uv: [R; 2]) -> Vec3<R> {
     let m = &world.scene.materials[material as usize];
     let [x, fx] = wrap(uv[0], m.texture_width);
     let [y, fy] = wrap(R::ZERO - uv[1], m.texture_height);
@@ -67,7 +67,7 @@ pub fn blend<R: Real>(a: Vec3<R>, b: Vec3<R>, c: Vec3<R>, d: Vec3<R>, fx: R, fy:
 }
 
 /// An 8-bit texel through the table at the head of the texels.
-pub fn srgb_texel<R: Real>(world: &World, index: u32) -> Vec3<R> {
+pub fn srgb_texel<R: Real>(world: &World<impl Simulation>, index: u32) -> Vec3<R> {
     let word = world.scene.texels[index as usize];
     Vec3::new(
         float_word(world, word & 255),
@@ -77,6 +77,6 @@ pub fn srgb_texel<R: Real>(world: &World, index: u32) -> Vec3<R> {
 }
 
 /// A word of the texels as a float.
-pub fn float_word<R: Real>(world: &World, index: u32) -> R {
+pub fn float_word<R: Real>(world: &World<impl Simulation>, index: u32) -> R {
     R::real(f32::from_bits(world.scene.texels[index as usize]))
 }

@@ -4,7 +4,7 @@
 use crate::layout::constants::{
     MAX_DEPTH, MAX_PASSES, NONE, RAY_PRIMARY, RAY_REFLECTION, RAY_REFRACTION, RAY_SHADOW,
 };
-use crate::layout::{Aov, Texel};
+use crate::layout::{Aov, Effect, Texel};
 
 use super::background::background;
 use super::bvh::{far, intersect, make_ray};
@@ -12,11 +12,11 @@ use super::camera::primary_ray;
 use super::film::{self, Sample};
 use super::hash::{mix_hash, sample_offset};
 use super::light::direct;
-use super::material::scatter;
+use super::material::{is_transmissive, scatter};
 use super::math::max3;
 use super::media::{attenuation, cross_face, current_medium};
 use super::surface::{Surface, resolve, spawn_before, spawn_behind};
-use super::{Real, Vec3, World};
+use super::{Real, Simulation, Vec3, World};
 
 /// A ray of the tree that is still to be traced.
 #[derive(Debug, Clone, Copy)]
@@ -54,7 +54,7 @@ pub struct Landing<R> {
 
 /// Trace samples [first, first + count) of a pixel of the whole picture onto its texel. The AOV is that of sample 0.
 pub fn trace_pixel<R: Real>(
-    world: &World,
+    world: &World<impl Simulation>,
     stack: &mut Vec<Branch<R>>,
     pixel: [u32; 2],
     samples: std::ops::Range<u32>,
@@ -80,13 +80,21 @@ pub fn trace_pixel<R: Real>(
 }
 
 /// Begin the tree of one primary ray.
-pub fn start_tree<R: Real>(world: &World, stack: &mut Vec<Branch<R>>, direction: Vec3<R>) -> Sample<R> {
+pub fn start_tree<R: Real>(
+    world: &World<impl Simulation>,
+    stack: &mut Vec<Branch<R>>,
+    direction: Vec3<R>,
+) -> Sample<R> {
+    let mut media = 0;
+    if world.view.start_media != media && world.simulates(Effect::Transmission) {
+        media = world.view.start_media;
+    }
     stack.clear();
     push(
         stack,
         Branch {
             origin: Vec3::load(world.view.eye),
-            media: world.view.start_media,
+            media,
             direction,
             depth: 0,
             weight: Vec3::one(),
@@ -111,7 +119,11 @@ pub fn push<R: Real>(stack: &mut Vec<Branch<R>>, branch: Branch<R>) {
 }
 
 /// Trace what is left of the tree.
-pub fn trace_tree<R: Real>(world: &World, stack: &mut Vec<Branch<R>>, sample: &mut Sample<R>) {
+pub fn trace_tree<R: Real>(
+    world: &World<impl Simulation>,
+    stack: &mut Vec<Branch<R>>,
+    sample: &mut Sample<R>,
+) {
     while let Some(branch) = stack.pop() {
         // Refraction goes on, reflection waits: one entry a branching level.
         let mut next = Some(branch);
@@ -123,7 +135,7 @@ pub fn trace_tree<R: Real>(world: &World, stack: &mut Vec<Branch<R>>, sample: &m
 
 /// Trace one branch, if that is worth it, and shade what it meets; returns the child to go on with.
 pub fn follow<R: Real>(
-    world: &World,
+    world: &World<impl Simulation>,
     sample: &mut Sample<R>,
     stack: &mut Vec<Branch<R>>,
     branch: &Branch<R>,
@@ -142,7 +154,7 @@ pub fn follow<R: Real>(
 }
 
 /// Whether a branch is traced: it is neither too deep nor too faint.
-pub fn worth_tracing<R: Real>(world: &World, branch: &Branch<R>) -> bool {
+pub fn worth_tracing<R: Real>(world: &World<impl Simulation>, branch: &Branch<R>) -> bool {
     branch.depth <= world.view.depth && max3(branch.weight) >= R::real(world.view.cutoff)
 }
 
@@ -153,7 +165,7 @@ pub fn count_ray<R: Real>(sample: &mut Sample<R>, kind: u32) {
 }
 
 /// Follow a branch through interfaces that change no medium to the first surface that matters.
-pub fn find_surface<R: Real>(world: &World, branch: &Branch<R>) -> Landing<R> {
+pub fn find_surface<R: Real>(world: &World<impl Simulation>, branch: &Branch<R>) -> Landing<R> {
     let mut origin = branch.origin;
     let mut media = branch.media;
     let mut distance = R::ZERO;
@@ -174,8 +186,7 @@ pub fn find_surface<R: Real>(world: &World, branch: &Branch<R>) -> Landing<R> {
         distance = distance + hit.t;
         let surface = resolve(world, &ray, &hit);
         let behind = cross_face(world, media, hit.id, hit.front);
-        let opaque =
-            max3(Vec3::<R>::load(world.scene.materials[surface.material as usize].transmission)) <= R::ZERO;
+        let opaque = !is_transmissive(world, surface.material);
         if opaque || current_medium(world, behind) != current_medium(world, media) {
             return Landing { found: true, stuck: false, surface, distance, media, media_behind: behind };
         }
@@ -187,7 +198,12 @@ pub fn find_surface<R: Real>(world: &World, branch: &Branch<R>) -> Landing<R> {
 }
 
 /// A branch that meets nothing sees the background. A cut one takes it too, and is accounted for.
-pub fn see_background<R: Real>(world: &World, sample: &mut Sample<R>, branch: &Branch<R>, cut: bool) {
+pub fn see_background<R: Real>(
+    world: &World<impl Simulation>,
+    sample: &mut Sample<R>,
+    branch: &Branch<R>,
+    cut: bool,
+) {
     sample.radiance = sample.radiance + branch.weight * background(world, branch.direction);
     if !cut {
         sample.primitive_hash = mix_hash(sample.primitive_hash, branch.kind);
@@ -206,7 +222,7 @@ pub fn see_background<R: Real>(world: &World, sample: &mut Sample<R>, branch: &B
 
 /// Add a surface's local light, and make its children: the one to go on with is returned, the other waits on the stack.
 pub fn shade<R: Real>(
-    world: &World,
+    world: &World<impl Simulation>,
     sample: &mut Sample<R>,
     stack: &mut Vec<Branch<R>>,
     branch: &Branch<R>,
@@ -222,7 +238,7 @@ pub fn shade<R: Real>(
     sample.rays += local.shadow_rays;
     sample.rays_by_kind[RAY_SHADOW as usize] += local.shadow_rays;
     note_path(sample, branch.kind, surface, local.seen);
-    if branch.depth == 0 {
+    if branch.depth == 0 && world.simulates(Effect::Aovs) {
         sample.aov = Aov {
             normal: film::flush3(surface.normal),
             depth: film::flush(landing.distance),
@@ -231,34 +247,33 @@ pub fn shade<R: Real>(
             reserved: [0; 2],
         };
     }
-    // Children.
+    // Children: where there are two, reflection waits.
+    let mut next = None;
     let scattered = scatter(world, surface, branch.direction, before, behind);
-    let reflection = Branch {
-        origin: spawn_before(surface),
-        media: landing.media,
-        direction: scattered.reflected,
-        depth: branch.depth + 1,
-        weight: weight * scattered.reflection,
-        kind: RAY_REFLECTION,
-    };
-    let refraction = Branch {
-        origin: spawn_behind(surface),
-        media: landing.media_behind,
-        direction: scattered.refracted,
-        depth: branch.depth + 1,
-        weight: weight * scattered.transmission,
-        kind: RAY_REFRACTION,
-    };
-    if scattered.transmits && scattered.reflects {
-        push(stack, reflection);
+    if scattered.reflects {
+        next = Some(Branch {
+            origin: spawn_before(surface),
+            media: landing.media,
+            direction: scattered.reflected,
+            depth: branch.depth + 1,
+            weight: weight * scattered.reflection,
+            kind: RAY_REFLECTION,
+        });
     }
     if scattered.transmits {
-        Some(refraction)
-    } else if scattered.reflects {
-        Some(reflection)
-    } else {
-        None
+        if let Some(reflection) = next {
+            push(stack, reflection);
+        }
+        next = Some(Branch {
+            origin: spawn_behind(surface),
+            media: landing.media_behind,
+            direction: scattered.refracted,
+            depth: branch.depth + 1,
+            weight: weight * scattered.transmission,
+            kind: RAY_REFRACTION,
+        });
     }
+    next
 }
 
 /// Enter a surface into both path hashes.

@@ -49,6 +49,14 @@ shared! {
     BLOCK: u32 = 8;
     /// Invocations of one workgroup of a probe.
     PROBE_GROUP: u32 = 64;
+    /// Surfaces that a bent ray of the self-test may meet.
+    BEND_LIMIT: u32 = 16;
+    /// How a bent ray ended: it met nothing more.
+    BEND_FREE: u32 = 0;
+    /// It met as many surfaces as it may.
+    BEND_LIMITED: u32 = 1;
+    /// The last surface has no children.
+    BEND_ABSORBED: u32 = 2;
     /// Interfaces without effect that a ray, or interfaces of any kind that a shadow ray, may pass;
     /// one that met this many is stuck and is cut.
     MAX_PASSES: u32 = 4096;
@@ -68,6 +76,8 @@ shared! {
     RAY_REFRACTION: u32 = 2;
     /// Index of shadow rays in counts by kind.
     RAY_SHADOW: u32 = 3;
+    /// Material index of the air.
+    AIR: u32 = 0;
     /// Marks an absent index.
     NONE: u32 = u32::MAX;
     /// Flag in [`Attribute::other`](super::Attribute::other): the second body's outside is on the other side.
@@ -75,6 +85,9 @@ shared! {
 
     /// 2^120: beyond every scene, a ray without end. Finite, since WGSL promises no infinities.
     FAR: f64 = 1.329_227_995_784_916e36;
+    /// 2^64: farther than any ray of a scene within ±2^60 begins from its boxes. A ray with a number beyond it, or with
+    /// one that is none, meets nothing.
+    MOST_REACH: f64 = 18_446_744_073_709_551_616.0;
     /// 2^-40: direction components below this count as this much in the slab test, so that every reciprocal and
     /// every product with it is finite. That much of the distance is far less than [`SLAB_PADDING`] of it.
     LEAST_DIRECTION: f64 = 9.094_947_017_729_282e-13;
@@ -90,6 +103,9 @@ shared! {
     /// its error in t grows as the distance to the plane along the ray does, so that a bound along the normal serves
     /// every angle.
     SPAWN_ROUNDOFFS: f64 = 16.0;
+    /// Points keep this many of those bounds, relative to the face's extent, off the edges: where two faces of a body
+    /// meet, a ray that leaves one of them must be on the right side of the other too.
+    EDGE_OFFSETS: f64 = 8.0;
 
     /// Weyl steps of the sample pattern, as fractions of 2^32: 1/φ₂ and 1/φ₂² of the plastic number φ₂
     /// (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences", R2).

@@ -1,4 +1,4 @@
-//! The contract both devices obey: `#[repr(C)]` records, shared constants, settings.
+//! The contract both devices obey: `#[repr(C)]` records, shared constants, settings, effects.
 //!
 //! Every record here has a WGSL struct of the same name in `shaders/records.wgsl`; a test compares sizes
 //! and offsets. Every constant in [`constants`] is injected into the shaders; a test forbids repeating one.
@@ -11,7 +11,7 @@ mod settings;
 mod tile;
 mod view;
 
-pub use effects::{Effect, Effects, Finding};
+pub use effects::{Effect, EffectChoice, EffectSet, Effects, Finding, Lights, Number, Numbers, Plan, Scan};
 pub use flat_scene::{Body, FlatScene, FlatTexture};
 pub use records::{Aov, Attribute, Corner, Light, Material, Node, Texel, Triangle};
 pub use settings::{Backend, Float, Intersector, Precision, Settings};

@@ -1,5 +1,7 @@
 //! How to trace: shared by both devices.
 
+use super::EffectChoice;
+
 /// Which device traces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Backend {
@@ -56,6 +58,8 @@ pub struct Settings {
     pub intersector: Intersector,
     /// Whether to fill [`Aov`](super::Aov)s.
     pub aovs: bool,
+    /// Which effects to simulate.
+    pub effects: EffectChoice,
 }
 
 impl Default for Settings {
@@ -69,6 +73,7 @@ impl Default for Settings {
             float: Float::default(),
             intersector: Intersector::default(),
             aovs: false,
+            effects: EffectChoice::default(),
         }
     }
 }

@@ -27,6 +27,18 @@ pub enum Effort {
     Long,
 }
 
+impl Effort {
+    /// So many rays of which `short` are asked for in the short run.
+    #[must_use]
+    pub fn rays(self, short: usize) -> usize {
+        match self {
+            Self::Quick => short / 4,
+            Self::Short => short,
+            Self::Long => short * 10,
+        }
+    }
+}
+
 /// A figure with its bound.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
@@ -47,6 +59,13 @@ pub enum Bound {
     AtMost(f64),
     /// Not below.
     AtLeast(f64),
+    /// As theory says, to within a tolerance.
+    Near {
+        /// The value on paper.
+        expected: f64,
+        /// How far rounding and tessellation may put the figure off it.
+        within: f64,
+    },
     /// Reported only: it explains other figures.
     Reported,
 }
@@ -61,12 +80,37 @@ pub enum Verdict {
 }
 
 impl Finding {
+    /// A figure that must not be above `most`.
+    #[must_use]
+    pub fn at_most(what: impl Into<String>, figure: f64, most: f64, trials: usize) -> Self {
+        Self { what: what.into(), figure, bound: Bound::AtMost(most), trials: trials as u64 }
+    }
+
+    /// A figure that must not be below `least`.
+    #[must_use]
+    pub fn at_least(what: impl Into<String>, figure: f64, least: f64, trials: usize) -> Self {
+        Self { what: what.into(), figure, bound: Bound::AtLeast(least), trials: trials as u64 }
+    }
+
+    /// A figure that theory gives as `expected`.
+    #[must_use]
+    pub fn near(what: impl Into<String>, figure: f64, expected: f64, within: f64, trials: usize) -> Self {
+        Self { what: what.into(), figure, bound: Bound::Near { expected, within }, trials: trials as u64 }
+    }
+
+    /// A figure that explains others.
+    #[must_use]
+    pub fn reported(what: impl Into<String>, figure: f64, trials: usize) -> Self {
+        Self { what: what.into(), figure, bound: Bound::Reported, trials: trials as u64 }
+    }
+
     /// Judge the figure.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         let keeps = match self.bound {
             Bound::AtMost(most) => self.figure <= most,
             Bound::AtLeast(least) => self.figure >= least,
+            Bound::Near { expected, within } => (self.figure - expected).abs() <= within,
             Bound::Reported => self.figure.is_finite(),
         };
         if keeps && self.trials > 0 { Verdict::Holds } else { Verdict::Falls }

@@ -4,12 +4,12 @@ use std::num::NonZero;
 
 use rayon::prelude::*;
 
-use super::{Answered, Device, DeviceError, Leave, Left, Stage, Walk, Walked, rays};
+use super::{Answered, Bend, Bent, Device, DeviceError, Leave, Left, Stage, Walk, Walked, paths, rays};
 use crate::cpu::CpuRenderer;
 use crate::film::{Frame, Renderer};
 use crate::kernel::material::fresnel;
 use crate::kernel::{Real, World};
-use crate::layout::{Intersector, Precision, Settings};
+use crate::layout::{EffectChoice, EffectSet, Intersector, Precision, Settings};
 
 /// The CPU in one precision, on all its cores.
 #[derive(Debug, Clone, Copy)]
@@ -26,7 +26,12 @@ impl CpuDevice {
     }
 
     fn world<'a>(&self, stage: &'a Stage) -> World<'a> {
-        World { scene: &stage.flat, view: &stage.view, intersector: self.intersector }
+        World {
+            scene: &stage.flat,
+            view: &stage.view,
+            intersector: self.intersector,
+            effects: EffectSet::ALL,
+        }
     }
 }
 
@@ -74,6 +79,14 @@ impl Device for CpuDevice {
         })
     }
 
+    fn bend(&mut self, stage: &Stage, rays: &[Bend]) -> Answered<Bent> {
+        let world = self.world(stage);
+        Ok(match self.precision {
+            Precision::F32 => rays.par_iter().map(|ray| paths::bend::<f32>(&world, ray)).collect(),
+            Precision::F64 => rays.par_iter().map(|ray| paths::bend::<f64>(&world, ray)).collect(),
+        })
+    }
+
     fn fresnel(&mut self, inputs: &[[f32; 2]]) -> Answered<Option<f32>> {
         Ok(match self.precision {
             Precision::F32 => inputs.iter().map(|&input| reflectance::<f32>(input)).collect(),
@@ -82,7 +95,12 @@ impl Device for CpuDevice {
     }
 
     fn picture(&mut self, stage: &Stage, settings: &Settings) -> Result<Frame, DeviceError> {
-        let settings = Settings { precision: self.precision, intersector: self.intersector, ..*settings };
+        let settings = Settings {
+            precision: self.precision,
+            intersector: self.intersector,
+            effects: EffectChoice::All,
+            ..*settings
+        };
         Ok(CpuRenderer::new(&stage.flat, 0)?.render(&stage.view_for(&settings), &settings, &())?)
     }
 
@@ -92,7 +110,7 @@ impl Device for CpuDevice {
         let most = std::thread::available_parallelism().map_or(1, NonZero::get);
         let mut frames = Vec::new();
         // One thread more than there are cores, so that it is never one only.
-        for (threads, tile) in (1..=most + 1).flat_map(|threads| TILES.map(|tile| (threads, tile))) {
+        for (threads, tile) in (1..=most + 1).zip(TILES.into_iter().cycle()) {
             let mut renderer = CpuRenderer::with_tile(&stage.flat, threads, tile)?;
             let way = format!("{threads} threads, tiles of {tile} × {tile}");
             frames.push((way, renderer.render(&view, &settings, &())?));

@@ -1,7 +1,10 @@
 //! What a case may ask a device for.
 
+use glam::DVec3;
+
 use super::Stage;
 use crate::film::Frame;
+use crate::layout::constants::BEND_LIMIT;
 use crate::layout::{Precision, Settings};
 
 /// A device that answers a case: the CPU in one precision, or a Vulkan adapter in one kind of float.
@@ -32,6 +35,12 @@ pub trait Device {
     /// # Errors
     /// As the device's.
     fn leave(&mut self, stage: &Stage, rays: &[Leave]) -> Answered<Left>;
+
+    /// Follow one path each of reflected and refracted rays.
+    ///
+    /// # Errors
+    /// As the device's.
+    fn bend(&mut self, stage: &Stage, rays: &[Bend]) -> Answered<Bent>;
 
     /// Fresnel reflectance for (cosine, η) pairs; `None` where it is total.
     ///
@@ -138,4 +147,75 @@ pub struct Left {
     pub met: u32,
     /// Distance to it.
     pub distance: f32,
+}
+
+/// A ray that goes on with one child at each surface it meets.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bend {
+    /// Where it starts.
+    pub origin: [f32; 3],
+    /// Unit direction.
+    pub direction: [f32; 3],
+    /// Media mask at the origin.
+    pub media: u32,
+    /// Bit k: go on with the reflected child of surface k, else with the refracted one; with the other where there is
+    /// no such child.
+    pub reflect: u32,
+    /// Most surfaces to meet, ≤ [`Bend::LIMIT`].
+    pub limit: u32,
+}
+
+impl Bend {
+    /// Surfaces whose ids an answer holds.
+    pub const LIMIT: u32 = BEND_LIMIT;
+
+    /// A ray from the air that is refracted wherever it can be.
+    #[must_use]
+    pub fn through(origin: DVec3, direction: DVec3) -> Self {
+        Self {
+            origin: origin.as_vec3().to_array(),
+            direction: direction.normalize().as_vec3().to_array(),
+            media: 0,
+            reflect: 0,
+            limit: Self::LIMIT,
+        }
+    }
+
+    /// A ray from the air that is reflected wherever it can be.
+    #[must_use]
+    pub fn back(origin: DVec3, direction: DVec3) -> Self {
+        Self { reflect: u32::MAX, ..Self::through(origin, direction) }
+    }
+}
+
+/// Where a bent ray went.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bent {
+    /// How it ended.
+    pub end: Ending,
+    /// Surfaces met: interfaces that change the medium, and opaque ones.
+    pub surfaces: u32,
+    /// Bit k: it was reflected at surface k.
+    pub reflected: u32,
+    /// Media mask at the end.
+    pub media: u32,
+    /// Primitive ids of the surfaces in order, then `NONE`.
+    pub ids: [u32; BEND_LIMIT as usize],
+    /// Where the last ray starts.
+    pub origin: [f32; 3],
+    /// Its unit direction.
+    pub direction: [f32; 3],
+    /// Its weight per channel: of every surface, and of every medium up to the last surface.
+    pub weight: [f32; 3],
+}
+
+/// How a bent ray ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ending {
+    /// It met nothing more.
+    Free,
+    /// The limit of surfaces was reached.
+    Limit,
+    /// The last surface has no children.
+    Absorbed,
 }

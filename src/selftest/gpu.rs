@@ -1,15 +1,17 @@
 //! A Vulkan adapter as a device of the self-test.
 
-use super::{Answered, Device, DeviceError, Escape, Leave, Left, Stage, Walk, Walked};
+use super::paths::BEND_WORDS;
+use super::{Answered, Bend, Bent, Device, DeviceError, Escape, Leave, Left, Stage, Walk, Walked};
 use crate::film::{Frame, Renderer};
 use crate::gpu::{AdapterReport, GpuError, GpuOptions, GpuRenderer, Portions, Prober, Source, Variant};
 use crate::layout::constants::{MAX_BVH_DEPTH, MAX_DEPTH};
-use crate::layout::{FlatScene, Float, Intersector, Precision, Settings, Tile, View};
+use crate::layout::{EffectChoice, FlatScene, Float, Intersector, Plan, Precision, Settings, Tile, View};
 use crate::scene::Scene;
 
 /// File and name of the entry points, and words of their records.
 const WALK: ((&str, &str), usize) = (("probe_rays", "probe_walk"), 11);
 const LEAVE: ((&str, &str), usize) = (("probe_rays", "probe_leave"), 12);
+const BEND: ((&str, &str), usize) = (("probe_paths", "probe_bend"), BEND_WORDS);
 const FRESNEL: ((&str, &str), usize) = (("probe_plain", "probe_fresnel"), 3);
 /// Records that are on the adapter at a time: tens of megabytes.
 const BATCH: usize = 1 << 20;
@@ -45,7 +47,7 @@ impl GpuDevice {
         let float = if adapter.strict_float { float } else { Float::Fast };
         // A stack that serves every scene.
         let settings = Settings { float, intersector, ..Settings::default() };
-        let variant = Variant::new(MAX_BVH_DEPTH, &settings);
+        let variant = Variant::new(MAX_BVH_DEPTH, &settings, &Plan::general(MAX_DEPTH));
         let name = column_name(adapter, float);
         Ok(Self { name, options: options.clone(), variant, sources, prober, renderer: None })
     }
@@ -154,6 +156,18 @@ impl Device for GpuDevice {
         Ok(answers)
     }
 
+    fn bend(&mut self, stage: &Stage, rays: &[Bend]) -> Answered<Bent> {
+        self.prober.show(&stage.flat, &stage.view)?;
+        let mut answers = Vec::with_capacity(rays.len());
+        let name = self.adapter().name.clone();
+        self.ask(BEND, rays, Bend::write, |ray, words| {
+            Self::check_canary(&name, words[BEND_WORDS - 1], ray.limit)?;
+            answers.push(Bent::read(words));
+            Ok(())
+        })?;
+        Ok(answers)
+    }
+
     fn fresnel(&mut self, inputs: &[[f32; 2]]) -> Answered<Option<f32>> {
         let mut answers = Vec::with_capacity(inputs.len());
         let words_of = |input: &[f32; 2], words: &mut Vec<u32>| words.extend(input.map(f32::to_bits));
@@ -176,10 +190,9 @@ impl Device for GpuDevice {
         let ways = [
             ("as usual", usual),
             ("as usual, again", usual),
-            ("a rest after every ray", Portions { steps: 1, ..usual }),
             ("a rest now and then", Portions { steps: usual.steps.min(997), ..usual }),
             ("bands of one row of blocks", Portions { pixels: 1, ..usual }),
-            ("such bands and rests after every ray", Portions { steps: 1, pixels: 1 }),
+            ("a rest after every ray, in bands", Portions { steps: 1, pixels: 1 }),
         ];
         let frames = ways.map(|(way, portions)| {
             renderer.set_portions(portions);
@@ -195,8 +208,8 @@ impl GpuDevice {
     fn aim(&self, stage: &Stage, settings: &Settings) -> (View, Settings) {
         let Variant { float, intersector, .. } = self.variant;
         let settings = Settings { precision: Precision::F32, float, intersector, ..*settings };
-        // The stack of the deepest tree of rays serves every depth.
-        (stage.view_for(&settings), Settings { depth: MAX_DEPTH, ..settings })
+        // The stack of the deepest tree of rays serves every depth, and the code of all effects every scene.
+        (stage.view_for(&settings), Settings { depth: MAX_DEPTH, effects: EffectChoice::All, ..settings })
     }
 
     /// The renderer, with this scene on the adapter.

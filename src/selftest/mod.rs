@@ -11,6 +11,9 @@ mod cases;
 mod cpu;
 mod device;
 mod gpu;
+mod paper;
+mod paths;
+mod props;
 mod random;
 mod rays;
 pub mod solids;
@@ -20,7 +23,7 @@ pub use agreement::{Agreement, LEAST_EQUAL_F64, LEAST_EQUAL_FAST, greatest_diffe
 pub use case::{Bound, Case, Effort, Finding, Verdict};
 pub use cases::CASES;
 pub use cpu::CpuDevice;
-pub use device::{Answered, Device, DeviceError, Escape, Leave, Left, Walk, Walked};
+pub use device::{Answered, Bend, Bent, Device, DeviceError, Ending, Escape, Leave, Left, Walk, Walked};
 pub use gpu::GpuDevice;
 pub use random::Random;
 pub use stage::Stage;

@@ -142,7 +142,7 @@ fn rust_records() -> Vec<Record> {
 
 /// What differs between the records of both languages.
 fn differences(sources: &[Source<'_>]) -> Vec<String> {
-    let variant = variants::all().into_iter().find(|variant| variant.aovs).unwrap();
+    let variant = variants::all().into_iter().find(|variant| variant.aovs()).unwrap();
     let module = assemble(sources, "render", "render", &variant).unwrap().module;
     rust_records().iter().flat_map(|record| record_differences(record, &module)).collect()
 }

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use snellius::cpu::CpuRenderer;
 use snellius::film::{Frame, Progress, Renderer};
 use snellius::gpu::{GpuError, GpuOptions, GpuRenderer};
-use snellius::layout::{FlatScene, Float, Intersector, Precision, Settings, Texel, View};
+use snellius::layout::{EffectChoice, FlatScene, Float, Intersector, Precision, Settings, Texel, View};
 
 use super::devices::{find, on_each};
 use super::scene;
@@ -19,6 +19,7 @@ fn settings(view: &View) -> Settings {
         float: Float::Strict,
         intersector: Intersector::Watertight,
         aovs: true,
+        effects: EffectChoice::Auto,
     }
 }
 

@@ -1,7 +1,7 @@
 //! Strict float: what an adapter computes is what the CPU computes, and without it that is not so.
 
 use snellius::gpu::{GpuOptions, Prober, SOURCES, Variant};
-use snellius::layout::{Float, Intersector, Precision};
+use snellius::layout::{Effect, EffectSet, Float, Intersector, Lights, Precision};
 
 use super::devices::on_each;
 use super::scene;
@@ -11,7 +11,8 @@ pub(super) const PLAIN: Variant = Variant {
     precision: Precision::F32,
     float: Float::Strict,
     intersector: Intersector::Watertight,
-    aovs: false,
+    effects: EffectSet::ALL.without(Effect::Aovs),
+    lights: Lights::Many,
     stack_size: 1,
     bvh_stack: 1,
 };

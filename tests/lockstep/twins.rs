@@ -13,6 +13,7 @@ use super::planted::Planted;
 const ALONE: &[(&str, &str)] = &[
     ("bindings", "kernel::World holds what the buffers hold"),
     ("probe", "the tests hold its twin"),
+    ("probe_paths", "src/selftest/paths.rs is its twin"),
     ("probe_plain", "the tests hold its twin"),
     ("probe_rays", "src/selftest/rays.rs is its twin"),
     ("probe_scene", "the tests hold its twin"),

@@ -1,19 +1,29 @@
 //! Every variant of the shaders assembles and validates, with no device at hand.
 
-use snellius::gpu::{GpuError, SOURCES, Variant, assemble, write_spirv};
-use snellius::layout::{Float, Intersector, Precision};
+use snellius::gpu::{GpuError, Promises, SOURCES, Variant, assemble, write_spirv};
+use snellius::layout::{EffectSet, Float, Intersector, Lights, Precision};
 
-/// Every variant, with the smallest and the largest stacks.
+use crate::effects::covering::covering;
+
+/// Variants in which any two effects are on and off in every combination that there is, first the general one; with
+/// each precision, intersector, number of lights, and with small and large stacks.
 pub(super) fn all() -> Vec<Variant> {
+    let sets = [EffectSet::ALL, EffectSet::NONE].into_iter().chain(covering(EffectSet::NONE));
     let mut variants = Vec::new();
-    for precision in [Precision::F32, Precision::F64] {
-        for intersector in [Intersector::Watertight, Intersector::MollerTrumbore] {
-            for aovs in [false, true] {
-                for (stack_size, bvh_stack) in [(1, 1), (64, 63)] {
-                    let float = Float::Strict;
-                    variants.push(Variant { precision, float, intersector, aovs, stack_size, bvh_stack });
-                }
-            }
+    for (index, effects) in sets.enumerate() {
+        for precision in [Precision::F32, Precision::F64] {
+            let intersectors = [Intersector::Watertight, Intersector::MollerTrumbore];
+            let sizes = [(64, 63), (0, 1), (1, 1)];
+            let lights = [Lights::Many, Lights::One, Lights::None];
+            variants.push(Variant {
+                precision,
+                float: Float::Strict,
+                intersector: intersectors[index % 2],
+                effects,
+                lights: lights[index / 2 % 3],
+                stack_size: sizes[index % 3].0,
+                bvh_stack: sizes[index % 3].1,
+            });
         }
     }
     variants
@@ -25,7 +35,7 @@ fn every_variant_validates_and_is_written_as_spirv() {
         let shader = assemble(SOURCES, "render", "render", &variant)
             .unwrap_or_else(|error| panic!("{variant:?}: {error}"));
         for float in [Float::Strict, Float::Fast] {
-            let words = write_spirv(&shader, &Variant { float, ..variant });
+            let words = write_spirv(&shader, &Variant { float, ..variant }, &Promises::default());
             assert!(words.is_ok_and(|words| words.len() > 1000), "{variant:?}");
         }
     }

@@ -6,8 +6,8 @@ use snellius::kernel::media::cross_face;
 use snellius::kernel::surface::{resolve, spawn_behind};
 use snellius::kernel::whitted::{Branch, find_surface, follow, start_tree, worth_tracing};
 use snellius::kernel::{Real, World};
-use snellius::layout::Intersector;
 use snellius::layout::constants::NONE;
+use snellius::layout::{EffectSet, Intersector};
 use snellius::selftest::Stage;
 
 /// Rays that leave the scene.
@@ -21,7 +21,12 @@ pub(super) struct Exits {
 
 /// Trace the picture's trees through the middles of its pixels, and see their rays off.
 pub(super) fn exits<R: Real>(stage: &Stage) -> Exits {
-    let world = World { scene: &stage.flat, view: &stage.view, intersector: Intersector::Watertight };
+    let world = World {
+        scene: &stage.flat,
+        view: &stage.view,
+        intersector: Intersector::Watertight,
+        effects: EffectSet::ALL,
+    };
     let [_, _, width, height] = stage.view.crop;
     let mut exits = Exits::default();
     for pixel in 0..width * height {

@@ -58,10 +58,12 @@ enum Matter {
     Fresnel { diffuse: f64, ior: f64, absorption: f64 },
 }
 
-/// Scenes of one to five closed bodies. Half of all coordinates lie on a grid of exact numbers, so that faces touch,
-/// coincide, and are looked at edge-on.
+/// Scenes of one to five closed bodies. Half of all coordinates lie on a grid of exact numbers, so that faces touch and
+/// coincide.
 pub(super) fn scenes() -> impl Strategy<Value = SceneFile> {
-    let view = (place(3.0), place(1.0), 0..=5_u32, prop::sample::select(vec![0.0, 1e-4, 0.05]));
+    // In no face: it would be on neither side of that.
+    let eye = place(3.0).prop_map(|place| place.map(|x| x + 0.125));
+    let view = (eye, place(1.0), 0..=5_u32, prop::sample::select(vec![0.0, 1e-4, 0.05]));
     let surroundings = (background(), fraction(), prop::collection::vec(light(), 0..3));
     let bodies = prop::collection::vec(body(), 1..=5);
     let apart = |&((eye, target, ..), ..): &((Point, Point, u32, f64), _, _)| eye != target;

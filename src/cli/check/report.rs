@@ -20,6 +20,7 @@ pub(super) struct Report {
     pub(super) buffers: Vec<Buffer>,
     pub(super) bvh: Bvh,
     pub(super) effects: Vec<Effect>,
+    pub(super) numbers: Vec<Number>,
     /// As they are shown to a person, several lines each.
     pub(super) warnings: Vec<String>,
 }
@@ -76,9 +77,17 @@ pub(super) struct Effect {
     pub(super) reason: String,
 }
 
+#[derive(Serialize)]
+pub(super) struct Number {
+    pub(super) name: &'static str,
+    pub(super) value: u32,
+    pub(super) reason: String,
+}
+
 impl Report {
     pub(super) fn new(prepared: &Prepared) -> Self {
         let (scene, flat) = (&prepared.scene, &prepared.flat.scene);
+        let called_for = called_for(scene, flat);
         let media = scene.materials.iter().filter(|material| material.is_transmissive());
         Self {
             scene: scene.source.display().to_string(),
@@ -94,7 +103,8 @@ impl Report {
             },
             buffers: buffers(flat, scene.render.size),
             bvh: Bvh { nodes: flat.nodes.len(), depth: flat.bvh_depth },
-            effects: effects(scene, flat),
+            effects: called_for.findings().iter().map(Effect::new).collect(),
+            numbers: called_for.numbers().named().into_iter().map(Number::new).collect(),
             warnings: prepared.warnings().map(|warning| warning.render(false)).collect(),
         }
     }
@@ -142,6 +152,18 @@ impl Texture {
     }
 }
 
+impl Effect {
+    fn new(finding: &layout::Finding) -> Self {
+        Self { name: finding.effect.name(), on: finding.on, reason: finding.reason.clone() }
+    }
+}
+
+impl Number {
+    fn new((name, number): (&'static str, &layout::Number)) -> Self {
+        Self { name, value: number.value, reason: number.reason.clone() }
+    }
+}
+
 /// Bytes of every storage buffer; the film's for the scene's own picture size, AOVs only where asked for.
 fn buffers(flat: &FlatScene, [width, height]: [u32; 2]) -> Vec<Buffer> {
     let pixels = u64::from(width) * u64::from(height);
@@ -160,12 +182,7 @@ fn buffers(flat: &FlatScene, [width, height]: [u32; 2]) -> Vec<Buffer> {
 }
 
 /// What a render without flags calls for.
-fn effects(scene: &Scene, flat: &FlatScene) -> Vec<Effect> {
-    let settings =
-        Settings { depth: scene.render.depth, samples: scene.render.samples, ..Settings::default() };
-    Effects::of(flat, &settings)
-        .findings()
-        .iter()
-        .map(|finding| Effect { name: finding.effect.name(), on: finding.on, reason: finding.reason.clone() })
-        .collect()
+fn called_for(scene: &Scene, flat: &FlatScene) -> Effects {
+    let scene::RenderDefaults { depth, cutoff, samples, .. } = scene.render;
+    Effects::of(flat, &Settings { depth, cutoff: cutoff as f32, samples, ..Settings::default() })
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use super::report::{Body, Buffer, Effect, Light, Medium, Report, Texture};
+use super::report::{Body, Buffer, Effect, Light, Medium, Number, Report, Texture};
 
 impl Display for Report {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
@@ -14,6 +14,7 @@ impl Display for Report {
         section(f, "Buffers", &self.buffers)?;
         writeln!(f, "\nBVH\n  {} nodes, depth {}", self.bvh.nodes, self.bvh.depth)?;
         section(f, "Effects", &self.effects)?;
+        section(f, "Numbers", &self.numbers)?;
         section(f, "Warnings", &self.warnings.iter().map(|text| Indented(text)).collect::<Vec<_>>())
     }
 }
@@ -67,6 +68,13 @@ impl Display for Effect {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Self { name, on, reason } = self;
         write!(f, "{name:<16} {}: {reason}", if *on { "on" } else { "off" })
+    }
+}
+
+impl Display for Number {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { name, value, reason } = self;
+        write!(f, "{name:<16} {value}: {reason}")
     }
 }
 

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use super::super::device::DeviceArgs;
-use super::super::values::{AovFile, Crop, ProgressStyle, Size, number_in, whole_in};
+use super::super::values::{AovFile, Crop, ProgressStyle, Size, effect_choice, number_in, whole_in};
 use crate::film::{BitDepth, Tone};
 use crate::layout::constants::MAX_DEPTH;
-use crate::layout::{Float, Intersector, Precision};
+use crate::layout::{EffectChoice, Float, Intersector, Precision};
 
 /// Render a scene to a picture
 ///
@@ -20,6 +20,7 @@ Examples:
   snellius render scenes/ice.toml -o - --crop 600,300,64,64 > detail.png
   snellius render scenes/ice.toml --aov depth=depth.exr --aov rays=rays.png
   snellius render scenes/ice.toml -o ice.png --json > ice.json
+  snellius render scenes/ice.toml -o plain.png --effects reflection,transmission,environment
 
 Ctrl-C stops the trace, writes what is finished (the rest is black) and exits with 130.
 Pixels that are not finite are counted and reported; in PNG and HDR they are magenta.")]
@@ -41,6 +42,10 @@ pub(in crate::cli) struct RenderArgs {
     /// Samples per pixel, 1 to 65536 [default: the scene's, else 4]
     #[arg(long, value_name = "N", value_parser = |text: &str| whole_in(text, 1, 65536))]
     pub(super) samples: Option<u32>,
+    /// Effects to simulate: auto for those that the scene calls for, all (the same picture, more slowly), none, or a
+    /// list of names with commas, as `check` prints them; a list brings what its effects need
+    #[arg(long, value_name = "LIST", default_value = "auto", value_parser = effect_choice)]
+    pub(super) effects: EffectChoice,
     /// Trace only this part of the picture: left, top, width and height in pixels
     #[arg(long, value_name = "X,Y,W,H")]
     pub(super) crop: Option<Crop>,

@@ -8,7 +8,7 @@ use super::super::values::{AovFile, Crop, ProgressStyle, Size};
 use super::args::RenderArgs;
 use super::export::PngOptions;
 use crate::film::{AovKind, Development, Format, Output};
-use crate::layout::{Float, Intersector, Precision, Settings};
+use crate::layout::{EffectChoice, Float, Intersector, Precision, Settings};
 use crate::scene::RenderDefaults;
 
 /// What `render` is to do, as far as the flags tell; the scene settles the rest.
@@ -23,6 +23,7 @@ pub(super) struct RenderConfig {
     pub(super) depth: Option<u32>,
     pub(super) cutoff: Option<f64>,
     pub(super) samples: Option<u32>,
+    pub(super) effects: EffectChoice,
     pub(super) intersector: Intersector,
     pub(super) crop: Option<Crop>,
     pub(super) png: PngOptions,
@@ -49,6 +50,7 @@ impl RenderConfig {
             depth: args.depth,
             cutoff: args.cutoff,
             samples: args.samples,
+            effects: args.effects,
             intersector: args.arithmetic.intersector,
             crop: args.crop,
             png,
@@ -76,6 +78,7 @@ impl RenderConfig {
             float: self.float,
             intersector: self.intersector,
             aovs: self.aovs.iter().any(|(kind, _)| kind.needs_aovs()),
+            effects: self.effects,
         }
     }
 

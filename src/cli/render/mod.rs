@@ -15,8 +15,8 @@ use super::values::{Size, name_of};
 use super::{CliError, Outcome};
 use crate::film::{Frame, Metadata, Renderer, Summary};
 use crate::flatten;
-use crate::layout::{Effects, Settings};
-use crate::scene::RenderDefaults;
+use crate::layout::{EffectSet, Effects, Settings};
+use crate::scene::{Diagnostic, RenderDefaults};
 pub(super) use args::RenderArgs;
 use config::RenderConfig;
 use progress::RenderProgress;
@@ -32,12 +32,23 @@ pub(super) fn run(args: RenderArgs, console: Console) -> Result<Outcome, CliErro
     let settings = config.settings(&render);
     let crop = config.crop(render.size)?;
     let view = flatten::view(&scene.camera, flat, render.size, crop, &settings);
+    let effects = Effects::of(flat, &settings);
+    let simulated = effects.plan(&settings).effects;
+    warn_of_lacking(&effects, simulated, console);
     let mut device = config.device.clone().settle(config.precision, console).open(flat)?;
     let frame = {
         let progress = RenderProgress::start(config.progress, console);
         device.render(&view, &settings, &progress)?
     };
-    let job = Job { config: &config, prepared: &prepared, render, settings, device: &device, frame: &frame };
+    let job = Job {
+        config: &config,
+        prepared: &prepared,
+        render,
+        settings,
+        simulated,
+        device: &device,
+        frame: &frame,
+    };
     let encode = job.write_pictures(console)?;
     let times = Times::new(prepared.load, prepared.flat.bvh_time, frame.times, encode, started.elapsed());
     if config.json {
@@ -47,12 +58,24 @@ pub(super) fn run(args: RenderArgs, console: Console) -> Result<Outcome, CliErro
     Ok(if frame.complete { Outcome::Done } else { Outcome::Interrupted })
 }
 
+/// Say what the scene calls for and the picture will lack.
+fn warn_of_lacking(effects: &Effects, simulated: EffectSet, console: Console) {
+    let lacking: Vec<_> = effects.findings().iter().filter(|f| f.on && !simulated.has(f.effect)).collect();
+    if !lacking.is_empty() {
+        let names: EffectSet = lacking.iter().map(|finding| finding.effect).collect();
+        let reasons: Vec<_> = lacking.iter().map(|finding| finding.reason.as_str()).collect();
+        let message = format!("--effects leaves out what the scene calls for: {names}");
+        console.warn_of(&Diagnostic::warning(message).hint(reasons.join("; ")));
+    }
+}
+
 /// A traced frame and all that is known of how it came about.
 struct Job<'a> {
     config: &'a RenderConfig,
     prepared: &'a Prepared,
     render: RenderDefaults,
     settings: Settings,
+    simulated: EffectSet,
     device: &'a Device<'a>,
     frame: &'a Frame,
 }
@@ -78,7 +101,7 @@ impl Job<'_> {
             .with("settings", self.settings_line())
             .with("device", self.device.name())
             .with("driver", self.device.driver())
-            .with("effects", self.effect_names().join(", "))
+            .with("effects", self.simulated.to_string())
             .with("seconds", format!("{:.3}", self.frame.times.trace.as_secs_f64()))
             .with("complete", if self.frame.complete { "yes" } else { "no: interrupted, the rest is black" });
         match summary.non_finite_pixels {
@@ -99,14 +122,6 @@ impl Job<'_> {
         )
     }
 
-    /// What the scene and the settings call for.
-    fn effect_names(&self) -> Vec<String> {
-        Effects::of(&self.prepared.flat.scene, &self.settings)
-            .on()
-            .map(|effect| effect.name().to_owned())
-            .collect()
-    }
-
     fn report(&self, times_ms: Times) -> RenderReport {
         let Summary { dropped, bound, .. } = Summary::of(self.frame);
         RenderReport {
@@ -121,7 +136,7 @@ impl Job<'_> {
             cutoff: self.render.cutoff,
             samples: self.render.samples,
             triangles: self.prepared.flat.scene.triangles.len(),
-            effects: self.effect_names(),
+            effects: self.simulated.iter().map(|effect| effect.name().to_owned()).collect(),
             rays: self.frame.rays.into(),
             times_ms,
             dropped,

@@ -56,6 +56,7 @@ pub(super) struct Figure {
 pub(super) enum Limit {
     AtMost(f64),
     AtLeast(f64),
+    Near { expected: f64, within: f64 },
     Reported(bool),
 }
 
@@ -111,6 +112,7 @@ impl From<Finding> for Figure {
         let bound = match finding.bound {
             Bound::AtMost(most) => Limit::AtMost(most),
             Bound::AtLeast(least) => Limit::AtLeast(least),
+            Bound::Near { expected, within } => Limit::Near { expected, within },
             Bound::Reported => Limit::Reported(true),
         };
         Self { what: finding.what, figure: finding.figure, bound, trials: finding.trials, holds }

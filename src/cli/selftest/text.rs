@@ -52,10 +52,17 @@ fn figures(report: &Report, verbose: bool) -> String {
 /// What was measured, what came out, and what it should be.
 pub(super) fn sentence(figure: &Figure) -> String {
     let Figure { what, trials, .. } = figure;
-    let value = number(figure.figure);
+    let value = match figure.bound {
+        Limit::Near { within, .. } => resolved(figure.figure, within),
+        _ => number(figure.figure),
+    };
     let bound = match figure.bound {
         Limit::AtMost(most) => format!(", at most {}", number(most)),
         Limit::AtLeast(least) => format!(", at least {}", number(least)),
+        Limit::Near { expected, within: 0.0 } => format!(", on paper {}", number(expected)),
+        Limit::Near { expected, within } => {
+            format!(", on paper {} ± {}", resolved(expected, within), number(within))
+        }
         Limit::Reported(_) => String::new(),
     };
     format!("{what}: {value}{bound} ({} tried)", count(*trials))
@@ -68,6 +75,8 @@ pub(super) fn cell(result: &CaseResult) -> String {
         Limit::AtMost(0.0) => 0.0,
         Limit::AtMost(most) => figure.figure / most,
         Limit::AtLeast(least) => least / figure.figure,
+        Limit::Near { within: 0.0, .. } => 0.0,
+        Limit::Near { expected, within } => (figure.figure - expected).abs() / within,
         Limit::Reported(_) => -1.0,
     };
     let worst = result.findings.iter().rev().max_by(|a, b| tightness(a).total_cmp(&tightness(b)));
@@ -77,9 +86,14 @@ pub(super) fn cell(result: &CaseResult) -> String {
         _ if worst.trials == 0 => "✗ nothing tried".to_owned(),
         Limit::AtMost(most) if !worst.holds => format!("✗ {value} > {}", number(most)),
         Limit::AtLeast(least) if !worst.holds => format!("✗ {value} < {}", number(least)),
+        Limit::Near { expected, .. } if !worst.holds => format!("✗ {value} ≠ {}", number(expected)),
         Limit::AtMost(0.0) => format!("0 of {}", count(zero_trials(result))),
         Limit::AtMost(most) => format!("{value} ≤ {}", number(most)),
         Limit::AtLeast(least) => format!("{value} ≥ {}", number(least)),
+        Limit::Near { within: 0.0, .. } => format!("{value} as on paper"),
+        Limit::Near { expected, within } => {
+            format!("off {} ≤ {}", number((worst.figure - expected).abs()), number(within))
+        }
         Limit::Reported(_) => value,
     }
 }
@@ -100,6 +114,14 @@ pub(super) fn number(x: f64) -> String {
             format!("{x:.4}").trim_end_matches('0').trim_end_matches('.').to_owned()
         }
         _ => format!("{x:.0}"),
+    }
+}
+
+/// A figure with one digit more than its tolerance tells.
+fn resolved(x: f64, within: f64) -> String {
+    match within {
+        0.0 => number(x),
+        _ => format!("{x:.*}", (1.0 - within.log10().floor()).clamp(0.0, 12.0) as usize),
     }
 }
 
@@ -135,6 +157,16 @@ mod tests {
         assert_eq!(cell_of(vec![far, near]), "0.5 ≤ 1");
         assert_eq!(cell_of(vec![figure(0.5, Limit::AtMost(1.0), true), fallen]), "✗ 3 > 2");
         assert_eq!(cell_of(vec![]), "✗ nothing found");
+    }
+
+    #[test]
+    fn a_figure_of_theory_shows_what_it_is_on_paper_and_how_far_off_it_is() {
+        let near = |x, within| figure(x, Limit::Near { expected: 42.078, within }, true);
+        assert_eq!(sentence(&near(42.07812, 1e-3)), "errors: 42.0781, on paper 42.0780 ± 0.001 (2000 tried)");
+        assert_eq!(cell_of(vec![near(42.1, 0.05), near(42.078, 0.05)]), "off 0.022 ≤ 0.05");
+        let exact = Limit::Near { expected: 3.0, within: 0.0 };
+        assert_eq!(cell_of(vec![figure(3.0, exact, true)]), "3 as on paper");
+        assert_eq!(cell_of(vec![figure(4.0, exact, false)]), "✗ 4 ≠ 3");
     }
 
     #[test]

@@ -1,9 +1,9 @@
 //! T18: rays that no scene should make. (Files that no one should write are refused with line and column before a device
 //! sees them: `tests/fuzz` and `tests/cli`.)
 //!
-//! Comparisons with a NaN are false, so such a ray enters no box; an infinite or huge one enters boxes, but as any ray it
-//! meets each triangle once for every face that it may cross. The bound on the time is that of a ray which crosses
-//! nothing it need not: 2.5 times an ordinary one's, the scatter of the clock included.
+//! A ray with a NaN, or with a number that no scene can give it, meets nothing: it is told from an ordinary one before it
+//! enters a box. Subnormal components count as 2^-40 in the slab test, as small ones do. So a hostile ray does no more
+//! than an ordinary one, and the bound, 2.5 times as long, leaves room for the clock only.
 
 use std::time::{Duration, Instant};
 
@@ -23,14 +23,14 @@ pub(super) const T18: Case = Case {
 const HOSTILE: [f32; 9] =
     [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, f32::MIN, 1e-40, -1e-45, 1e30, -0.0];
 /// Each time is the least of so many.
-const TRIES: usize = 5;
+const TRIES: usize = 3;
 /// Most faces that a ray may cross.
 const LIMIT: u32 = 16;
 
 fn hostile_rays(device: &mut dyn Device, effort: Effort) -> Result<Vec<Finding>, DeviceError> {
     let count = match effort {
-        Effort::Quick => 20_000,
-        Effort::Short => 50_000,
+        Effort::Quick => 5_000,
+        Effort::Short => 10_000,
         Effort::Long => 1_000_000,
     };
     let mesh = solids::jittered_sphere(50, &mut Random::new("hostile"));

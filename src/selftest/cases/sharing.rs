@@ -18,11 +18,11 @@ fn sharing(device: &mut dyn Device, effort: Effort) -> Result<Vec<Finding>, Devi
     // No side is a multiple of a tile's.
     let size = match effort {
         Effort::Quick => [21, 18],
-        Effort::Short => [53, 41],
+        Effort::Short => [37, 29],
         Effort::Long => [321, 241],
     };
     let mut scene = built_in::read(built_in::GLASS, size)?;
-    scene.render.samples = 3;
+    scene.render.samples = 2;
     let stage = Stage::new(&scene)?;
     let first = device.picture(&stage, &stage.settings)?;
     let pictures = device.shared_out(&stage, &stage.settings)?;

@@ -10,7 +10,7 @@ mod soup;
 
 use snellius::gpu::{GpuOptions, Prober, SOURCES, Source, Variant};
 use snellius::kernel::World;
-use snellius::layout::{FlatScene, Intersector, View};
+use snellius::layout::{EffectSet, FlatScene, Intersector, View};
 
 use self::inputs::{Generator, Input};
 use self::record::Record;
@@ -56,11 +56,14 @@ const COVERED: &[(&str, &str)] = &[
     ("greatest", "slabs"),
     ("index_of", "scatter"),
     ("intersect_triangle", "intersect"),
+    ("is_transmissive", "transmittance"),
+    ("is_usable", "intersect"),
     ("least", "slabs"),
     ("linear_texel", "background"),
     ("log2_parts", "power"),
     ("nearer", "intersect"),
     ("note_path", "the pictures"),
+    ("off_edge", "resolve"),
     ("permute", "shear_of"),
     ("power_f32", "power"),
     ("scale2", "exp_neg"),
@@ -109,7 +112,12 @@ impl Bench {
         let variant = Variant { bvh_stack: 8, stack_size: 8, ..PLAIN };
         self.prober.run((file, &entry), &variant, stride, &mut found).unwrap();
         // On the CPU.
-        let world = World { scene: &self.scene, view: &self.view, intersector: Intersector::Watertight };
+        let world = World {
+            scene: &self.scene,
+            view: &self.view,
+            intersector: Intersector::Watertight,
+            effects: EffectSet::ALL,
+        };
         let mut differing = Vec::new();
         let mut written = 0;
         for (input, found) in inputs.chunks(stride).zip(found.chunks(stride)) {

@@ -1,0 +1,93 @@
+//! Few sets of effects that stand for all.
+
+use snellius::layout::{Effect, EffectSet};
+
+/// Closed sets that hold `base`, in which any two other effects are on and off in every combination that there is
+/// (pairwise covering: nearly every fault of a combination shows in one of two).
+pub(crate) fn covering(base: EffectSet) -> Vec<EffectSet> {
+    let mut random = Random(1);
+    let mut wanted = combinations(base);
+    let mut sets = Vec::new();
+    while let Some(&(on, off)) = wanted.first() {
+        let mut set = base.with_all(on);
+        for effect in Effect::ALL {
+            let grown = set.with(effect).closed();
+            if grown.minus(off) == grown && random.flip() {
+                set = grown;
+            }
+        }
+        wanted.retain(|&(on, off)| !(set.has_all(on) && set.minus(off) == set));
+        sets.push(set);
+    }
+    sets
+}
+
+/// Every closed set that holds `base`.
+pub(crate) fn all_closed(base: EffectSet) -> Vec<EffectSet> {
+    let mut sets = vec![base.closed()];
+    for effect in Effect::ALL {
+        let grown: Vec<_> = sets.iter().map(|set| set.with(effect).closed()).collect();
+        for set in grown {
+            if !sets.contains(&set) {
+                sets.push(set);
+            }
+        }
+    }
+    sets
+}
+
+/// What two effects beside `base` can be at once: those that are on, and those that are off.
+fn combinations(base: EffectSet) -> Vec<(EffectSet, EffectSet)> {
+    let free: Vec<_> = EffectSet::ALL.minus(base.closed()).iter().collect();
+    let mut found = Vec::new();
+    for (i, &a) in free.iter().enumerate() {
+        for &b in &free[..=i] {
+            for (a_on, b_on) in [(false, false), (false, true), (true, false), (true, true)] {
+                let pick = |on: bool| [(a, a_on), (b, b_on)].into_iter().filter(move |one| one.1 == on);
+                let [on, off] = [true, false].map(|on| pick(on).map(|one| one.0).collect::<EffectSet>());
+                if base.with_all(on).minus(off) == base.with_all(on) {
+                    found.push((on, off));
+                }
+            }
+        }
+    }
+    found
+}
+
+trait WithAll {
+    fn with_all(self, other: Self) -> Self;
+}
+
+impl WithAll for EffectSet {
+    fn with_all(self, other: Self) -> Self {
+        self.iter().chain(other.iter()).collect::<Self>().closed()
+    }
+}
+
+/// A linear congruential generator.
+struct Random(u32);
+
+impl Random {
+    fn flip(&mut self) -> bool {
+        self.0 = self.0.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        self.0 >> 31 == 1
+    }
+}
+
+#[test]
+fn any_two_effects_meet_in_every_combination() {
+    let base = EffectSet::of(&[Effect::Shadows]);
+    let sets = covering(base);
+    assert!(sets.iter().all(|set| set.has_all(base) && set.closed() == *set));
+    let met = |on: &[Effect], off: &[Effect]| {
+        sets.iter().any(|set| set.has_all(EffectSet::of(on)) && set.minus(EffectSet::of(off)) == *set)
+    };
+    assert!(
+        met(&[Effect::Fresnel], &[Effect::Environment]) && met(&[Effect::Environment], &[Effect::Fresnel])
+    );
+    assert!(met(&[Effect::TintedShadows], &[Effect::Absorption]));
+    assert!(!met(&[Effect::TintedShadows], &[Effect::Transmission]), "that cannot be");
+    assert!(sets.len() < 20, "{}", sets.len());
+    let all = all_closed(base);
+    assert!(sets.iter().all(|set| all.contains(set)) && all.len() > 1000, "{}", all.len());
+}
