@@ -4,6 +4,7 @@ use std::io;
 
 use thiserror::Error;
 
+use crate::bench::BenchError;
 use crate::cpu::CpuError;
 use crate::film::{DifferenceError, EncodeError, LoadError, OutputError};
 use crate::gpu::GpuError;
@@ -62,6 +63,16 @@ pub(super) enum CliError {
     Study(StudyError),
     #[error("cannot write the report as JSON: {0}")]
     Json(serde_json::Error),
+}
+
+impl From<BenchError> for CliError {
+    fn from(error: BenchError) -> Self {
+        match error {
+            BenchError::Cpu(error) => Self::Cpu(error),
+            BenchError::Gpu(error) => Self::Gpu(error),
+            BenchError::Scene(error) => Self::Scene(error),
+        }
+    }
 }
 
 /// A study fails with the errors of its parts, which keep their exit codes.

@@ -3,6 +3,7 @@
 //! Errors travel up as values and are printed here, once. Exit codes: 0 done; 1 a comparison or case failed;
 //! 2 usage, scene or file error; 3 no such device; 4 device lost; 130 interrupted by Ctrl-C.
 
+mod bench;
 mod check;
 mod console;
 mod device;
@@ -62,6 +63,7 @@ struct Cli {
 enum Command {
     Render(Box<render::RenderArgs>),
     Check(check::CheckArgs),
+    Bench(bench::BenchArgs),
     Devices(devices::DevicesArgs),
     Diff(diff::DiffArgs),
     Study(study::StudyArgs),
@@ -93,6 +95,7 @@ fn run(cli: Cli, console: Console) -> Result<Outcome, CliError> {
     match cli.command {
         Some(Command::Render(args)) => render::run(*args, console),
         Some(Command::Check(args)) => check::run(&args),
+        Some(Command::Bench(args)) => bench::run(&args, console),
         Some(Command::Devices(args)) => devices::run(&args, console),
         Some(Command::Diff(args)) => diff::run(args, console),
         Some(Command::Study(args)) => study::run(args, console),

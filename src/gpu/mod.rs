@@ -16,6 +16,7 @@
 //! but one, with those of `scenes/opaque.toml` to 7e-7, where f32 is off by 1e-1 at an edge.
 
 mod adapters;
+mod adaptive;
 mod assemble;
 mod blocks;
 mod buffers;

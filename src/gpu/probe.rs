@@ -106,7 +106,7 @@ impl Prober {
             context.wait()?;
         }
         let mut at = 0;
-        context.read(&buffer, HEAD..HEAD + size, |bytes| {
+        context.read(&buffer, HEAD..HEAD + size, size_of::<u32>() as u64, |bytes| {
             let words: &[u32] = bytemuck::cast_slice(bytes);
             records[at..at + words.len()].copy_from_slice(words);
             at += words.len();

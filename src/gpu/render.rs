@@ -1,17 +1,19 @@
 //! A scene on an adapter, and the pictures that are traced of it.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::time::{Duration, Instant};
 
+use super::adaptive::Sifter;
 use super::blocks::Blocks;
 use super::buffers::SceneBuffers;
 use super::context::Context;
-use super::film::FilmBuffer;
+use super::film::{FilmBuffer, PixelLayout};
 use super::job::Job;
 use super::pace::Pace;
 use super::pipeline::Compiled;
 use super::{AdapterReport, GpuError, GpuOptions, SOURCES, Source, Variant, pipeline};
-use crate::film::{Frame, Progress, RayCounts, Renderer, TraceTimes};
+use crate::film::{Frame, Progress, RayCounts, Renderer, SampleCounts, TraceTimes};
+use crate::layout::constants::BLOCK;
 use crate::layout::{FlatScene, Float, Plan, Scan, Settings, Tile, View};
 
 /// File and name of the entry point.
@@ -19,9 +21,9 @@ const ENTRY: (&str, &str) = ("render", "render");
 
 /// A scene on an adapter.
 pub struct GpuRenderer {
-    context: Context,
-    sources: &'static [Source<'static>],
-    scene: SceneBuffers,
+    pub(super) context: Context,
+    pub(super) sources: &'static [Source<'static>],
+    pub(super) scene: SceneBuffers,
     /// Of the deepest tree so far: its stack serves the others.
     bvh_depth: u32,
     /// What the scene calls for.
@@ -29,7 +31,10 @@ pub struct GpuRenderer {
     /// What the upload took, until a frame has told it.
     upload: Duration,
     pipelines: HashMap<Variant, Compiled>,
-    film: Option<FilmBuffer>,
+    pub(super) sifters: HashMap<Variant, Sifter>,
+    /// Variants that have been dispatched.
+    warm: HashSet<Variant>,
+    pub(super) film: Option<FilmBuffer>,
 }
 
 impl GpuRenderer {
@@ -62,6 +67,8 @@ impl GpuRenderer {
             scan: Scan::of(scene),
             upload: start.elapsed(),
             pipelines: HashMap::new(),
+            sifters: HashMap::new(),
+            warm: HashSet::new(),
             film: None,
         })
     }
@@ -85,6 +92,16 @@ impl GpuRenderer {
         Ok(())
     }
 
+    /// Bytes of device memory that an invocation under these settings rests in: its stack, its sample and its ray.
+    ///
+    /// # Errors
+    /// As of [`Renderer::render`], where the shader is not compiled yet.
+    pub fn invocation_bytes(&mut self, settings: &Settings) -> Result<u64, GpuError> {
+        let variant = self.variant(settings);
+        let invocations = u64::from(variant.most_blocks() * BLOCK * BLOCK);
+        Ok(self.pipeline(&variant)?.texels_at / invocations)
+    }
+
     /// What is simulated under these settings.
     fn plan(&self, settings: &Settings) -> Plan {
         self.scan.effects(settings).plan(settings)
@@ -104,15 +121,14 @@ impl GpuRenderer {
 
     /// Compile the variant, make room for the picture and take it in view.
     pub(super) fn prepare(&mut self, view: &View, variant: &Variant) -> Result<Job<'_>, GpuError> {
-        let (compiled, is_new) = self.pipeline(variant)?;
-        // As many rows as fit one buffer.
+        let compiled = self.pipeline(variant)?;
         let [_, _, width, height] = view.crop;
         let blocks = Blocks::new(width, height);
-        let limit = self.context.largest_binding();
-        let most_pixels = FilmBuffer::most_pixels(limit, compiled.texels_at, variant.aovs());
-        let band_height = blocks.band_height(most_pixels);
+        let layout = PixelLayout::of(variant);
+        let band_height = self.film_rows(view, variant)?;
         let pixels = u64::from(width) * u64::from(band_height);
-        let film = self.film(compiled.texels_at, pixels, variant.aovs())?;
+        let film = self.film(compiled.texels_at, pixels, layout)?;
+        let is_cold = self.warm.insert(*variant);
         self.scene.set_view(&self.context, view);
         let group = self.scene.bind(&self.context, &film.buffer);
         let job = Job {
@@ -124,30 +140,39 @@ impl GpuRenderer {
             band_height,
             tree_at: compiled.tree_at,
         };
-        if is_new {
+        if is_cold {
             // Some drivers compile at the first dispatch: have one outside the picture.
             job.submit(Tile { first_block: blocks.count(), block_count: 1, ..Tile::default() })?;
         }
         Ok(job)
     }
 
+    /// Rows of the view's crop that fit one film, in whole blocks; one row of blocks at the least.
+    pub(super) fn film_rows(&mut self, view: &View, variant: &Variant) -> Result<u32, GpuError> {
+        let compiled = self.pipeline(variant)?;
+        let [_, _, width, height] = view.crop;
+        let limit = self.context.largest_binding();
+        let most_pixels = FilmBuffer::most_pixels(limit, compiled.texels_at, PixelLayout::of(variant));
+        Ok(Blocks::new(width, height).band_height(most_pixels))
+    }
+
     /// The film of the last picture if it is laid out so, else a new one.
-    fn film(&mut self, texels_at: u64, pixels: u64, aovs: bool) -> Result<FilmBuffer, GpuError> {
+    fn film(&mut self, texels_at: u64, pixels: u64, layout: PixelLayout) -> Result<FilmBuffer, GpuError> {
         let film = match self.film.take() {
-            Some(film) if film.fits(texels_at, pixels, aovs) => film,
-            _ => FilmBuffer::new(&self.context, texels_at, pixels, aovs)?,
+            Some(film) if film.fits(texels_at, pixels, layout) => film,
+            _ => FilmBuffer::new(&self.context, texels_at, pixels, layout)?,
         };
         Ok(self.film.insert(film).clone())
     }
 
-    /// The variant's pipeline, and whether it is new.
-    fn pipeline(&mut self, variant: &Variant) -> Result<(Compiled, bool), GpuError> {
+    /// The variant's pipeline.
+    fn pipeline(&mut self, variant: &Variant) -> Result<Compiled, GpuError> {
         if let Some(pipeline) = self.pipelines.get(variant) {
-            return Ok((pipeline.clone(), false));
+            return Ok(pipeline.clone());
         }
         let pipeline = pipeline::compile(&self.context, &self.scene.layout, self.sources, ENTRY, variant)?;
         self.pipelines.insert(*variant, pipeline.clone());
-        Ok((pipeline, true))
+        Ok(pipeline)
     }
 }
 
@@ -170,6 +195,11 @@ impl Renderer for GpuRenderer {
         let upload = std::mem::take(&mut self.upload);
         let variant = self.variant(settings);
         let view = &self.plan(settings).applied_to(view);
+        if let Some(threshold) = settings.threshold().filter(|_| variant.adaptive()) {
+            let mut frame = self.render_adaptive(view, &variant, threshold, progress)?;
+            frame.times.upload = upload;
+            return Ok(frame);
+        }
         let job = self.prepare(view, &variant)?;
         let blocks = job.blocks;
         let times = TraceTimes { upload, compile: start.elapsed(), ..TraceTimes::default() };
@@ -177,6 +207,7 @@ impl Renderer for GpuRenderer {
             width: blocks.width,
             height: blocks.height,
             texels: Vec::new(),
+            samples: SampleCounts::Same(view.samples),
             aovs: variant.aovs().then(Vec::new),
             float: variant.float,
             rays: RayCounts::default(),

@@ -2,9 +2,9 @@
 
 use super::pace::Pace;
 use super::{GpuError, GpuRenderer, Variant};
-use crate::film::{Frame, RayCounts, TraceTimes};
+use crate::film::{Frame, RayCounts, SampleCounts, TraceTimes};
 use crate::layout::constants::TREE_NODES;
-use crate::layout::{Float, Plan, Settings, Texel, TreeNode, View};
+use crate::layout::{Effect, Float, Plan, Settings, Texel, TreeNode, View};
 
 /// Bytes before the first node: the number of nodes, padded.
 const NODES_AT: u64 = 16;
@@ -35,7 +35,8 @@ impl GpuRenderer {
         [x, y]: [u32; 2],
     ) -> Result<GpuTree, GpuError> {
         let settings = Settings { aovs: true, samples: 1, ..*settings };
-        let plan = Plan::general(settings.depth);
+        let general = Plan::general(settings.depth);
+        let plan = Plan { effects: general.effects.without(Effect::Adaptive), ..general };
         let float = if self.adapter().strict_float { settings.float } else { Float::Fast };
         let variant = Variant { tree: true, float, ..self.variant_of(&settings, &plan) };
         let view = View { crop: [x, y, 1, 1], samples: 1, ..*view };
@@ -45,6 +46,7 @@ impl GpuRenderer {
             height: 1,
             texels: Vec::new(),
             aovs: Some(Vec::new()),
+            samples: SampleCounts::Same(1),
             float,
             rays: RayCounts::default(),
             times: TraceTimes::default(),
@@ -54,15 +56,16 @@ impl GpuRenderer {
         job.trace(&mut pace, &(), &mut frame)?;
         let (context, buffer, tree_at) = (job.context, &job.film.buffer, job.tree_at);
         let mut recorded = 0;
-        context.read(buffer, tree_at..tree_at + 4, |bytes| {
+        context.read(buffer, tree_at..tree_at + 4, 4, |bytes| {
             recorded = bytemuck::pod_read_unaligned(bytes);
         })?;
         let kept = u64::from(recorded.min(TREE_NODES));
         let mut bytes = Vec::new();
         if kept > 0 {
             let start = tree_at + NODES_AT;
-            let end = start + kept * size_of::<TreeNode>() as u64;
-            context.read(buffer, start..end, |part| bytes.extend_from_slice(part))?;
+            let record = size_of::<TreeNode>() as u64;
+            context
+                .read(buffer, start..start + kept * record, record, |part| bytes.extend_from_slice(part))?;
         }
         Ok(GpuTree {
             nodes: bytemuck::pod_collect_to_vec(&bytes),

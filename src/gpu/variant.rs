@@ -3,8 +3,8 @@
 use crate::layout::constants::{BLOCK, ROUNDOFF_F32, ROUNDOFF_F64, SHARED, Shared};
 use crate::layout::{Effect, EffectSet, Float, Intersector, Lights, Plan, Precision, Settings};
 
-/// Bytes of a waiting ray in f32; in f64 twice as many.
-const BRANCH_BYTES: u32 = 48;
+/// Bytes of a waiting ray in f32; in f64 at most twice as many.
+const BRANCH_BYTES: u32 = 64;
 /// Waiting rays that the rest of an invocation's memory counts for: the sample and the ray in work.
 const SAMPLE_BRANCHES: u32 = 4;
 /// Bytes that the invocations of one dispatch may take.
@@ -24,7 +24,7 @@ pub struct Variant {
     /// Feature `moller_trumbore`.
     pub intersector: Intersector,
     /// A feature for each effect, under its name with `_` for `-`. With `aovs` the film holds
-    /// [`Aov`](crate::layout::Aov)s.
+    /// [`Aov`](crate::layout::Aov)s, with `adaptive` [`Statistics`](crate::layout::Statistics).
     pub effects: EffectSet,
     /// Feature `lights` where there are any, and `one_light`.
     pub lights: Lights,
@@ -69,6 +69,12 @@ impl Variant {
     #[must_use]
     pub fn aovs(&self) -> bool {
         self.effects.has(Effect::Aovs)
+    }
+
+    /// Whether the film holds [`Statistics`](crate::layout::Statistics), and a list of pixels.
+    #[must_use]
+    pub fn adaptive(&self) -> bool {
+        self.effects.has(Effect::Adaptive)
     }
 
     /// What `@if(…)` asks for, and the answers.

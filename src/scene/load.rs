@@ -153,6 +153,7 @@ fn render_defaults(table: &RenderTable) -> RenderDefaults {
         depth: table.depth.map_or(defaults.depth, |depth| depth.0),
         cutoff: table.cutoff.map_or(defaults.cutoff, |cutoff| cutoff.value),
         samples: table.samples.map_or(defaults.samples, |samples| samples.0),
+        adaptive: table.adaptive.map(|adaptive| adaptive.value),
     }
 }
 

@@ -95,11 +95,13 @@ pub struct RenderDefaults {
     pub cutoff: f64,
     /// Samples per pixel, in 1..=65536.
     pub samples: u32,
+    /// Threshold of adaptive antialiasing in [0, 1], or none: every pixel gets all samples.
+    pub adaptive: Option<f64>,
 }
 
 impl Default for RenderDefaults {
     fn default() -> Self {
-        Self { size: [1280, 720], depth: 16, cutoff: 1e-4, samples: 4 }
+        Self { size: [1280, 720], depth: 16, cutoff: 1e-4, samples: 4, adaptive: None }
     }
 }
 

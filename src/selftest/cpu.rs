@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::lockstep::Difference;
 use super::{Answered, Bend, Bent, Device, DeviceError, Leave, Left, Stage, Walk, Walked, paths, rays};
 use crate::cpu::CpuRenderer;
 use crate::film::{Frame, Renderer};
@@ -90,6 +91,10 @@ impl Device for CpuDevice {
             Precision::F32 => inputs.iter().map(|&input| reflectance::<f32>(input)).collect(),
             Precision::F64 => inputs.iter().map(|&input| reflectance::<f64>(input)).collect(),
         })
+    }
+
+    fn differences(&mut self, _: usize) -> Answered<Difference> {
+        Ok(Vec::new())
     }
 
     fn picture(&mut self, stage: &Stage, settings: &Settings) -> Result<Frame, DeviceError> {

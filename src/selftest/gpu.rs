@@ -1,5 +1,6 @@
 //! A Vulkan adapter as a device of the self-test.
 
+use super::lockstep::{Difference, Lockstep};
 use super::paths::BEND_WORDS;
 use super::{Answered, Bend, Bent, Device, DeviceError, Escape, Leave, Left, Stage, Walk, Walked};
 use crate::film::{Frame, Renderer};
@@ -58,6 +59,19 @@ impl GpuDevice {
         self.prober.adapter()
     }
 
+    /// Run an entry point in one kind of float, strict where the adapter can be.
+    pub(super) fn probe(
+        &mut self,
+        entry: (&str, &str),
+        float: Float,
+        stride: usize,
+        records: &mut [u32],
+    ) -> Result<(), DeviceError> {
+        let float = if self.adapter().strict_float { float } else { Float::Fast };
+        let variant = Variant { float, ..self.variant };
+        Ok(self.prober.run(entry, &variant, stride, records)?)
+    }
+
     /// Ask the entry point for each record: `inputs` go in, and what it wrote comes out.
     fn ask<T>(
         &mut self,
@@ -72,7 +86,7 @@ impl GpuDevice {
                 inputs(query, &mut records);
                 records.resize((index + 1) * stride, 0);
             }
-            self.prober.run((file, entry), &self.variant, stride, &mut records)?;
+            self.probe((file, entry), self.variant.float, stride, &mut records)?;
             for (query, record) in batch.iter().zip(records.chunks_exact(stride)) {
                 take(query, record)?;
             }
@@ -176,6 +190,11 @@ impl Device for GpuDevice {
             Ok(())
         })?;
         Ok(answers)
+    }
+
+    fn differences(&mut self, records: usize) -> Answered<Difference> {
+        let mut lockstep = Lockstep::new(&self.options, self.variant.float, self.sources)?;
+        Ok(lockstep.compare_all(records)?)
     }
 
     fn picture(&mut self, stage: &Stage, settings: &Settings) -> Result<Frame, DeviceError> {

@@ -5,11 +5,13 @@
 //! tests and by `snellius selftest`. A planted fault must push at least one figure of its case over the bound
 //! (tests/selftest).
 
+mod arithmetic;
 mod case;
 mod cases;
 mod cpu;
 mod device;
 mod gpu;
+pub mod lockstep;
 mod paper;
 mod paths;
 mod props;
@@ -18,6 +20,7 @@ mod rays;
 pub mod solids;
 mod stage;
 
+pub use arithmetic::{Arithmetic, Operation, Rewrite};
 pub use case::{Bound, Case, Effort, Finding, Verdict};
 pub use cases::CASES;
 pub use cpu::CpuDevice;

@@ -13,7 +13,7 @@ pub(super) const WHITE: Background = Background::Color(DVec3::ONE);
 
 /// One sample a pixel of a square picture, to a depth and a cut-off.
 pub(super) fn square(pixels: u32, depth: u32, cutoff: f64) -> RenderDefaults {
-    RenderDefaults { size: [pixels; 2], depth, cutoff, samples: 1 }
+    RenderDefaults { size: [pixels; 2], depth, cutoff, samples: 1, adaptive: None }
 }
 
 /// A camera at a place that looks at another, `fov_y` degrees high; which side is up does not matter.

@@ -91,10 +91,13 @@ pub(super) fn truncation(
     Ok(Some(Reference::new(&shot, words, uncertainty)))
 }
 
+/// Traces a setup, or gives up when it takes longer than the duration.
+type Shoot<'a> = dyn FnMut(&Setup, Duration) -> Result<Option<Shot>, StudyError> + 'a;
+
 /// The tree of depth 64 at the least cut-off that fits the time: rung after rung, until the next would be too
 /// long or nothing is cut any more. `coarse` is the picture to compare the first rung with.
 pub(super) fn whole(
-    shoot: &mut dyn FnMut(&Setup, Duration) -> Result<Option<Shot>, StudyError>,
+    shoot: &mut Shoot<'_>,
     base: Settings,
     coarse: &Seen,
     limit: Duration,

@@ -31,7 +31,7 @@ fn record<R: Real>(scene: &FlatScene, view: &View, settings: &Settings, pixel: [
     let world =
         World { scene, view: &view, intersector: settings.intersector, effects: Listener { nodes: &nodes } };
     let (mut stack, mut texel, mut aov) = (Vec::new(), Texel::default(), Aov::default());
-    trace_pixel::<R>(&world, &mut stack, pixel, 0..1, &mut texel, &mut aov);
+    trace_pixel::<R>(&world, &mut stack, pixel, 0..1, &mut texel, &mut aov, None);
     Recorded { nodes: nodes.into_inner().unwrap_or_else(PoisonError::into_inner), texel }
 }
 

@@ -11,7 +11,7 @@ pub(super) const PLAIN: Variant = Variant {
     precision: Precision::F32,
     float: Float::Strict,
     intersector: Intersector::Watertight,
-    effects: EffectSet::ALL.without(Effect::Aovs),
+    effects: EffectSet::ALL.without(Effect::Aovs).without(Effect::Adaptive),
     lights: Lights::Many,
     stack_size: 1,
     bvh_stack: 1,

@@ -33,11 +33,25 @@ pub(super) fn all() -> Vec<Variant> {
 #[test]
 fn every_variant_validates_and_is_written_as_spirv() {
     for variant in all() {
-        let shader = assemble(SOURCES, "render", "render", &variant)
-            .unwrap_or_else(|error| panic!("{variant:?}: {error}"));
-        for float in [Float::Strict, Float::Fast] {
-            let words = write_spirv(&shader, &Variant { float, ..variant }, &Promises::default());
-            assert!(words.is_ok_and(|words| words.len() > 1000), "{variant:?}");
+        let between: &[_] = if variant.adaptive() { &["sift", "settle_film"] } else { &[] };
+        let between = between.iter().map(|entry| ("sift", *entry));
+        for (root, entry) in [("render", "render")].into_iter().chain(between) {
+            let shader = assemble(SOURCES, root, entry, &variant)
+                .unwrap_or_else(|error| panic!("{entry}, {variant:?}: {error}"));
+            for float in [Float::Strict, Float::Fast] {
+                let words = write_spirv(&shader, &Variant { float, ..variant }, &Promises::default());
+                assert!(words.is_ok_and(|words| words.len() > 500), "{entry}, {variant:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn without_refinement_the_shader_knows_nothing_of_it() {
+    for variant in all().into_iter().filter(|variant| !variant.adaptive()) {
+        let wgsl = assemble(SOURCES, "render", "render", &variant).unwrap().wgsl;
+        for word in ["Statistics", "tally", "slot_in_list", "first_body"] {
+            assert!(!wgsl.contains(word), "{word}");
         }
     }
 }

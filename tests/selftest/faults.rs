@@ -41,6 +41,21 @@ const FAULTS: &[Fault] = &[
         ),
     },
     Fault {
+        case: "T3",
+        what: "boxes without padding",
+        change: ("bvh", "origin + delta, origin - delta,", "origin, origin,"),
+    },
+    Fault {
+        case: "T4",
+        what: "a face that may be met again",
+        change: ("bvh", "if tri.id == ray.origin_face {", "if false {"),
+    },
+    Fault {
+        case: "T5",
+        what: "a fixed epsilon",
+        change: ("surface", "reach * (SPAWN_ROUNDOFFS * ROUNDOFF)", "real(1e-4)"),
+    },
+    Fault {
         case: "T6",
         what: "total reflection by sin²θt ≥ 1",
         change: ("material", "if g2 <= 0.0 {", "if (1.0 - c * c) / (eta * eta) >= 1.0 {"),
@@ -73,18 +88,28 @@ const FAULTS: &[Fault] = &[
     },
     Fault {
         case: "T13",
-        what: "media that are toggled, not set and cleared",
-        change: ("media", "select(mask & ~bit, mask | bit, inside)", "mask ^ bit"),
+        what: "media that are toggled on the way out, not cleared",
+        change: ("media", "let others = mask & ~bit;", "let others = mask ^ bit;"),
     },
     Fault {
         case: "T13",
         what: "points that may lie on edges",
-        change: ("surface", "EDGE_OFFSETS * offset", "0.0 * offset"),
+        change: ("surface", "(EDGE_ROUNDOFFS * ROUNDOFF)", "0.0"),
+    },
+    Fault {
+        case: "T15",
+        what: "the weight of a corner forgotten",
+        change: ("surface", "let b0 = 1.0 - hit.b1 - hit.b2;", "let b0 = 1.0 - hit.b1;"),
     },
     Fault {
         case: "T16",
         what: "a fixed epsilon",
         change: ("surface", "reach * (SPAWN_ROUNDOFFS * ROUNDOFF)", "real(1e-4)"),
+    },
+    Fault {
+        case: "T17",
+        what: "weights that do not quite add up to one",
+        change: ("surface", "let b0 = 1.0 - hit.b1 - hit.b2;", "let b0 = 1.000002 - hit.b1 - hit.b2;"),
     },
     Fault {
         case: "T19",
@@ -110,7 +135,11 @@ const FAULTS: &[Fault] = &[
     Fault {
         case: "C4",
         what: "interfaces that transmit what they reflect as well",
-        change: ("material", "kt * (1.0 - f.reflectance);\n    } else", "kt;\n    } else"),
+        change: (
+            "material",
+            "result.transmission = kt * (1.0 - f.reflectance);",
+            "result.transmission = kt;",
+        ),
     },
     Fault {
         case: "C5",
@@ -144,8 +173,8 @@ const FAULTS: &[Fault] = &[
     },
     Fault {
         case: "C11",
-        what: "a mirror that is off by a ten-thousandth",
-        change: ("material", "n * (c + c)", "n * (c + c * 1.0001)"),
+        what: "a mirror that is turned by a ten-thousandth",
+        change: ("material", "n * (c + c)", "(n + vec3r(1e-4, 0.0, 0.0)) * (c + c)"),
     },
     Fault {
         case: "C12",
@@ -156,6 +185,11 @@ const FAULTS: &[Fault] = &[
         case: "C13",
         what: "a cut-off that cuts what is just bright enough",
         change: ("whitted", "max3(branch.weight) >= real", "max3(branch.weight) > real"),
+    },
+    Fault {
+        case: "S1",
+        what: "a number that is off by one ULP",
+        change: ("material", "let k = (c * sum - 1.0)", "let k = (c * sum - 1.0000001)"),
     },
 ];
 

@@ -13,12 +13,13 @@ use crate::layout::{EffectChoice, Float, Intersector, Precision};
 /// Render a scene to a picture
 ///
 /// The whole tree of reflected and refracted rays is traced. The scene file's [render] table holds the
-/// defaults of --size, --depth, --cutoff and --samples.
+/// defaults of --size, --depth, --cutoff, --samples and --adaptive.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   snellius render scenes/ice.toml -o ice.png
   snellius render scenes/ice.toml -o ice.exr --backend cpu --size 640x480 --samples 16
+  snellius render scenes/ice.toml -o ice.png --samples 64 --adaptive 0.01
   snellius render scenes/ice.toml -o - --crop 600,300,64,64 > detail.png
   snellius render scenes/ice.toml --aov depth=depth.exr --aov rays=rays.png
   snellius render scenes/ice.toml -o ice.png --json > ice.json
@@ -45,6 +46,10 @@ pub(in crate::cli) struct RenderArgs {
     /// Samples per pixel, 1 to 65536 [default: the scene's, else 4]
     #[arg(long, value_name = "N", value_parser = |text: &str| whole_in(text, 1, 65536))]
     pub(super) samples: Option<u32>,
+    /// Give a pixel more samples, up to --samples, only while one more is expected to move it by more than this part of
+    /// the display's range, 0 to 1: 0.01 is good, 0.03 fast, 0 the same as without [default: the scene's, else off]
+    #[arg(long, value_name = "T", value_parser = |text: &str| number_in(text, 0.0, 1.0))]
+    pub(super) adaptive: Option<f64>,
     /// Effects to simulate: auto for those that the scene calls for, all (the same picture, more slowly), none, or a
     /// list of names with commas, as `check` prints them; a list brings what its effects need
     #[arg(long, value_name = "LIST", default_value = "auto", value_parser = effect_choice)]
@@ -65,7 +70,7 @@ pub(in crate::cli) struct RenderArgs {
     #[arg(long, value_name = "X,Y,W,H")]
     pub(super) crop: Option<Crop>,
     /// Write what else is known of each pixel: exactly to .exr, in false colours to .png; may be repeated.
-    /// Names: depth, normal, body, medium, rays, dropped, bound, primitive-hash, body-hash
+    /// Names: depth, normal, body, medium, rays, samples, dropped, bound, primitive-hash, body-hash
     #[arg(long, value_name = "NAME=PATH")]
     pub(super) aov: Vec<AovFile>,
     /// Tone curve of PNG files

@@ -1,19 +1,25 @@
 //! The cases, a file each or a family.
 
+mod boxes;
 mod closed_meshes;
 mod critical;
+mod degenerate;
 mod furnace;
 mod hollow_cube;
 mod index_match;
+mod leaving;
 mod mirrors;
 mod parity;
+mod places;
 mod prism;
 mod reflectance;
 mod reversal;
 mod rod;
 mod scale;
 mod slab;
+mod strict;
 mod terminator;
+mod walls;
 
 use super::Case;
 
@@ -21,6 +27,9 @@ use super::Case;
 pub const CASES: &[Case] = &[
     closed_meshes::T1,
     closed_meshes::T2,
+    boxes::T3,
+    leaving::T4,
+    walls::T5,
     critical::T6,
     index_match::T7,
     reflectance::T8,
@@ -29,7 +38,9 @@ pub const CASES: &[Case] = &[
     furnace::T11,
     hollow_cube::T12,
     parity::T13,
+    degenerate::T15,
     scale::T16,
+    places::T17,
     terminator::T19,
     reflectance::C1,
     critical::C2,
@@ -44,4 +55,5 @@ pub const CASES: &[Case] = &[
     mirrors::C11,
     mirrors::C12,
     hollow_cube::C13,
+    strict::S1,
 ];

@@ -1,19 +1,21 @@
 //! Functions of numbers alone. Twin of shaders/probe_plain.wgsl.
 
+use crate::kernel::Vec3;
+use crate::kernel::adaptive::{Surroundings, display, round_end, tally, variance, wants_more};
+use crate::kernel::bvh::safe_reciprocal;
+use crate::kernel::film::flush;
+use crate::kernel::hash::{mix_hash, sample_offset};
+use crate::kernel::light::phong;
+use crate::kernel::material::fresnel;
+use crate::kernel::math::{Transcendental, cross3, dot3, length3, max3, unit3};
+use crate::kernel::surface::{lift, turn_towards};
+use crate::kernel::texture::{blend, wrap};
+use crate::kernel::triangle::{Crossing, moller_trumbore, shear_of, watertight};
+use crate::layout::{Statistics, Tile, Triangle};
 use bytemuck::Zeroable;
-use snellius::kernel::bvh::safe_reciprocal;
-use snellius::kernel::film::flush;
-use snellius::kernel::hash::{mix_hash, sample_offset};
-use snellius::kernel::light::phong;
-use snellius::kernel::material::fresnel;
-use snellius::kernel::math::{Transcendental, cross3, dot3, length3, max3, unit3};
-use snellius::kernel::surface::{lift, turn_towards};
-use snellius::kernel::texture::{blend, wrap};
-use snellius::kernel::triangle::{Crossing, moller_trumbore, shear_of, watertight};
-use snellius::layout::Triangle;
 
 use super::Probe;
-use super::inputs::Input::{Bits, Direction, Fraction, Number, Point, Positive, Word};
+use super::inputs::Input::{self, Bits, Direction, Fraction, Number, Point, Positive, Word};
 use super::record::Record;
 
 pub(super) const PROBES: &[Probe] = &[
@@ -217,6 +219,74 @@ pub(super) const PROBES: &[Probe] = &[
         },
     },
     Probe {
+        name: "display",
+        inputs: &[Point],
+        outputs: 3,
+        run: |_, io| {
+            let v = io.take3();
+            let [x, y, z] = display([v.x, v.y, v.z]);
+            io.put3(Vec3::new(x, y, z));
+        },
+    },
+    Probe {
+        name: "tally",
+        inputs: &[Number, Number, Number, Number, Word(5), Word(3), Point, Word(3)],
+        outputs: 6,
+        run: |_, io| {
+            let mut statistics = take_statistics(io);
+            let radiance = io.take3();
+            tally(&mut statistics, [radiance.x, radiance.y, radiance.z], io.take_word());
+            put_statistics(io, &statistics);
+        },
+    },
+    Probe {
+        name: "variance",
+        inputs: STATISTICS,
+        outputs: 1,
+        run: |_, io| {
+            let statistics = take_statistics(io);
+            io.put(variance(&statistics));
+        },
+    },
+    Probe {
+        name: "wants_more",
+        inputs: &[
+            Fraction,
+            Fraction,
+            Fraction,
+            Fraction,
+            Word(70),
+            Word(3), // here
+            Fraction,
+            Fraction,
+            Fraction,
+            Fraction,
+            Word(70),
+            Word(3), // around
+            Fraction,
+            Word(2),
+            Fraction,
+            Word(100),
+        ],
+        outputs: 1,
+        run: |_, io| {
+            let (here, pooled) = (take_statistics(io), take_statistics(io));
+            let around = Surroundings { pooled, variance: io.take() };
+            let tile = Tile { round: io.take_word(), threshold: io.take(), ..Tile::default() };
+            let limit = io.take_word();
+            io.put_flag(wants_more(&here, &around, &tile, limit));
+        },
+    },
+    Probe {
+        name: "round_end",
+        inputs: &[Word(1 << 17), Word(1 << 17)],
+        outputs: 1,
+        run: |_, io| {
+            let (start, limit) = (io.take_word(), io.take_word());
+            io.put_word(round_end(start, limit));
+        },
+    },
+    Probe {
         name: "blend",
         inputs: &[Point, Point, Point, Point, Fraction, Fraction],
         outputs: 3,
@@ -227,6 +297,28 @@ pub(super) const PROBES: &[Probe] = &[
         },
     },
 ];
+
+/// What [`take_statistics`] takes.
+const STATISTICS: &[Input] = &[Fraction, Fraction, Fraction, Fraction, Word(70), Word(3)];
+
+fn take_statistics(io: &mut Record) -> Statistics {
+    let sum = io.take3();
+    Statistics {
+        sum: [sum.x, sum.y, sum.z],
+        squares: io.take(),
+        samples: io.take_word(),
+        body: io.take_word(),
+        ..Statistics::default()
+    }
+}
+
+fn put_statistics(io: &mut Record, statistics: &Statistics) {
+    let [x, y, z] = statistics.sum;
+    io.put3(Vec3::new(x, y, z));
+    io.put(statistics.squares);
+    io.put_word(statistics.samples);
+    io.put_word(statistics.body);
+}
 
 fn take_triangle(io: &mut Record) -> Triangle {
     let mut corner = || {
