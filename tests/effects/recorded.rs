@@ -31,7 +31,7 @@ fn touched(subject: &Subject) -> EffectSet {
     let mut stack = Vec::new();
     for (x, y) in (0..view.height).flat_map(|y| (0..view.width).map(move |x| (x, y))) {
         let (mut texel, mut aov) = (Texel::default(), Aov::default());
-        trace_pixel::<f32>(&world, &mut stack, [x, y], 0..view.samples, &mut texel, &mut aov);
+        trace_pixel::<f32>(&world, &mut stack, [x, y], 0..view.samples, &mut texel, &mut aov, None);
     }
     let noted = noted.into_inner();
     // The settings decide about auxiliary pictures.

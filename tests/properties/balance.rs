@@ -58,14 +58,15 @@ fn see_off<R: Real>(world: &World, branch: &Branch<R>, exits: &mut Exits) {
         return;
     }
     // Through interfaces that change no medium, as `find_surface` goes.
-    let (mut origin, mut media) = (branch.origin, branch.media);
+    let (mut origin, mut face, mut media) = (branch.origin, branch.origin_face, branch.media);
     loop {
-        let ray = make_ray(world, origin, branch.direction);
+        let ray = make_ray(world, origin, branch.direction, face);
         let hit = intersect(world, &ray, far());
         if hit.id == NONE {
             break;
         }
         media = cross_face(world, media, hit.id, hit.front);
+        face = hit.id;
         origin = spawn_behind(&resolve(world, &ray, &hit));
     }
     exits.rays += 1;
