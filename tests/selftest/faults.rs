@@ -173,8 +173,8 @@ const FAULTS: &[Fault] = &[
     },
     Fault {
         case: "C11",
-        what: "a mirror that is off by a ten-thousandth",
-        change: ("material", "n * (c + c)", "n * (c + c * 1.0001)"),
+        what: "a mirror that pushes rays to one side",
+        change: ("material", "direction + n * (c + c)", "direction + n * (c + c) + vec3r(1e-5, 0.0, 0.0)"),
     },
     Fault {
         case: "C12",
