@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("|---|---|---|---|---|---|");
     for path in if named.is_empty() { scenes()? } else { named } {
         for adapter in adapters().iter().filter(|adapter| adapter.strict_float) {
-            let options = GpuOptions { adapter: Some(adapter.name.clone()) };
+            let options = GpuOptions { adapter: Some(adapter.name.clone()), ..GpuOptions::default() };
             let row = measure(&path, &options, rounds)?;
             let name = path.file_stem().unwrap_or_default().to_string_lossy();
             println!("| {name} | {} | {row} |", adapter.name.split(" (").next().unwrap_or_default());

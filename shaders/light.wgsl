@@ -1,7 +1,7 @@
 // Stop 5 of 7: light. Twin of src/kernel/light.rs.
 
 import package::real::{real, vec3r, least};
-import package::bvh::{make_ray, occluded, steps, traverse};
+import package::bvh::{intersect, make_ray, occluded, steps};
 import package::material::{is_transmissive, shadow_transmission};
 import package::math::{dot3, length3, max3, power};
 import package::media::{attenuation, cross_face, current_medium};
@@ -96,10 +96,9 @@ fn phong(n: vec3r, l: vec3r, direction: vec3r, cosine: real, shininess: real, sp
 fn transmittance(
     origin: vec3r, l: vec3r, distance: real, light: vec3r, origin_face: u32, @if(tinted_shadows) media: u32,
 ) -> vec3r {
+    // Where every body is opaque one blocker decides, whichever it is.
     @if(!tinted_shadows) return select(vec3r(1.0), vec3r(0.0), occluded(make_ray(origin, l, origin_face), distance));
     @if(tinted_shadows) {
-        // Where every body is opaque one blocker decides, whichever it is.
-        let any_hit = frame.view.transmissive_bodies == 0u;
         var result = vec3r(1.0);
         var mask = media;
         var start = origin;
@@ -108,7 +107,7 @@ fn transmittance(
         for (var i = 0u; i < MAX_PASSES; i++) {
             steps += LOOP_STEPS;
             let ray = make_ray(start, l, face);
-            let hit = traverse(ray, left, any_hit);
+            let hit = intersect(ray, left);
             let medium = current_medium(mask);
             if hit.id == NONE {
                 @if(absorption) result = result * attenuation(medium, left);

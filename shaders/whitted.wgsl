@@ -11,6 +11,7 @@ import package::light::direct;
 import package::material::{is_transmissive, scatter};
 import package::math::max3;
 import package::media::{attenuation, cross_face, current_medium};
+import package::record::{record_end, record_surface};
 import package::records::Aov;
 import package::surface::{Surface, resolve, spawn_before, spawn_behind};
 import package::bindings::{film, frame};
@@ -127,6 +128,7 @@ fn start_tree(direction: vec3r) {
     @if(aovs) { sample.aov = Aov(vec3f(0.0), 0.0, NONE, NONE, vec2u(0u)); }
     @if(adaptive) { sample.first_body = NONE; }
     @if(branches) stack_size = 0u;
+    @if(tree) film.tree.count = 0u;
     current.origin = vec3r(frame.view.eye);
     @if(transmission) current.media = frame.view.start_media;
     current.direction = direction;
@@ -243,7 +245,9 @@ fn find_surface(branch: Branch) -> Landing {
 
 // A branch that meets nothing sees the background. A cut one takes it too, and is accounted for.
 fn see_background(branch: Branch, cut: bool) {
-    sample.radiance = sample.radiance + branch.weight * background(branch.direction);
+    let light = branch.weight * background(branch.direction);
+    sample.radiance = sample.radiance + light;
+    @if(tree) record_end(branch, light, cut);
     if !cut {
         sample.primitive_hash = mix_hash(sample.primitive_hash, branch.kind);
         sample.body_hash = mix_hash(sample.body_hash, branch.kind);
@@ -270,7 +274,8 @@ fn shade(branch: Branch, landing: Landing) -> Next {
     // Local light.
     @if(tinted_shadows) let local = direct(surface, branch.direction, landing.media);
     @else let local = direct(surface, branch.direction);
-    sample.radiance = sample.radiance + weight * local.radiance;
+    let light = weight * local.radiance;
+    sample.radiance = sample.radiance + light;
     sample.rays += local.shadow_rays;
     sample.rays_by_kind[RAY_SHADOW] += local.shadow_rays;
     note_path(branch.kind, surface, local.seen);
@@ -287,6 +292,7 @@ fn shade(branch: Branch, landing: Landing) -> Next {
     // Children: where there are two, reflection waits.
     var next: Next;
     @if(bounces) let scattered = scatter(surface, branch.direction, before, behind);
+    @if(tree) record_surface(branch, landing, weight, light, local, scattered);
     @if(reflection) {
         if scattered.reflects {
             next.found = true;

@@ -27,6 +27,7 @@ pub const SOURCES: &[Source<'static>] = sources! {
     "probe_rays"
     "probe_scene"
     "real"
+    "record"
     "records"
     "render"
     "sift"

@@ -16,6 +16,7 @@ use super::light::direct;
 use super::material::{is_transmissive, scatter};
 use super::math::max3;
 use super::media::{attenuation, cross_face, current_medium};
+use super::record::{record_end, record_surface};
 use super::surface::{Surface, resolve, spawn_before, spawn_behind};
 use super::{Real, Simulation, Vec3, World};
 
@@ -223,7 +224,9 @@ pub fn see_background<R: Real>(
     branch: &Branch<R>,
     cut: bool,
 ) {
-    sample.radiance = sample.radiance + branch.weight * background(world, branch.direction);
+    let light = branch.weight * background(world, branch.direction);
+    sample.radiance = sample.radiance + light;
+    record_end(world, branch, light, cut);
     if !cut {
         sample.primitive_hash = mix_hash(sample.primitive_hash, branch.kind);
         sample.body_hash = mix_hash(sample.body_hash, branch.kind);
@@ -253,7 +256,8 @@ pub fn shade<R: Real>(
     let weight = branch.weight * attenuation(world, before, landing.distance);
     // Local light.
     let local = direct(world, surface, branch.direction, landing.media);
-    sample.radiance = sample.radiance + weight * local.radiance;
+    let light = weight * local.radiance;
+    sample.radiance = sample.radiance + light;
     sample.rays += local.shadow_rays;
     sample.rays_by_kind[RAY_SHADOW as usize] += local.shadow_rays;
     note_path(sample, branch.kind, surface, local.seen);
@@ -272,6 +276,7 @@ pub fn shade<R: Real>(
     // Children: where there are two, reflection waits.
     let mut next = None;
     let scattered = scatter(world, surface, branch.direction, before, behind);
+    record_surface(world, branch, landing, weight, light, &local, &scattered);
     if scattered.reflects {
         next = Some(Branch {
             origin: spawn_before(surface),

@@ -62,8 +62,8 @@ shared! {
     MAX_PASSES: u32 = 4096;
     /// Passes that a GPU invocation books for a round of a loop: the round, and one that finds the loop's end.
     LOOP_STEPS: u32 = 2;
-    /// Passes that it books for a node of the BVH: a round of the traversal, and one for each child and their end.
-    NODE_STEPS: u32 = 5;
+    /// Passes that it books for a round of the traversal: a node of the BVH, a triangle, or both.
+    NODE_STEPS: u32 = 1;
     /// Rows of four in [`View::media`](super::View::media).
     MEDIA_ROWS: u32 = MAX_MEDIA.div_ceil(4);
     /// Rows of four in [`View::radiance_bound`](super::View::radiance_bound): 0 to `MAX_DEPTH` levels.
@@ -82,6 +82,22 @@ shared! {
     SEVERAL: u32 = u32::MAX - 1;
     /// Material index of the air.
     AIR: u32 = 0;
+    /// How a ray of a recorded tree ended: it met a surface.
+    END_SURFACE: u32 = 0;
+    /// It met nothing.
+    END_BACKGROUND: u32 = 1;
+    /// It was not traced: too deep.
+    END_DEPTH: u32 = 2;
+    /// It was not traced: too faint.
+    END_WEIGHT: u32 = 3;
+    /// It met too many interfaces without effect.
+    END_STUCK: u32 = 4;
+    /// Flag of a recorded ray's children: a reflected one.
+    CHILD_REFLECTION: u32 = 1;
+    /// Flag of a recorded ray's children: a refracted one.
+    CHILD_REFRACTION: u32 = 2;
+    /// Rays of a recorded tree that a GPU keeps: the rest is counted.
+    TREE_NODES: u32 = 65_536;
     /// Marks an absent index.
     NONE: u32 = u32::MAX;
     /// Flag in [`Attribute::other`](super::Attribute::other): the second body's outside is on the other side.
@@ -89,6 +105,9 @@ shared! {
 
     /// 2^120: beyond every scene, a ray without end. Finite, since WGSL promises no infinities.
     FAR: f64 = 1.329_227_995_784_916e36;
+    /// 2^64: farther than any ray of a scene within ±2^60 begins from its boxes. A ray with a number beyond it, or with
+    /// one that is none, meets nothing.
+    MOST_REACH: f64 = 18_446_744_073_709_551_616.0;
     /// 2^-40: direction components below this count as this much in the slab test, so that every reciprocal and
     /// every product with it is finite. That much of the distance is far less than [`SLAB_PADDING`] of it.
     LEAST_DIRECTION: f64 = 9.094_947_017_729_282e-13;

@@ -47,7 +47,7 @@ impl Devices {
             return Err(GpuError::NoAdapter { wanted, found }.into());
         }
         for name in names {
-            let options = GpuOptions { adapter: Some(name) };
+            let options = GpuOptions { adapter: Some(name), ..GpuOptions::default() };
             let mut device =
                 GpuDevice::new(&options, args.float.unwrap_or_default(), args.intersector, SOURCES)?;
             let adapter = device.adapter();
