@@ -5,7 +5,7 @@ import package::triangle::{Shear, shear_of, intersect_triangle};
 import package::records::Triangle;
 import package::bindings::{frame, nodes, triangles};
 import package::constants::{
-    BVH_STACK, FAR, LEAST_DIRECTION, LOOP_STEPS, NODE_STEPS, NONE, ORIGIN_PADDING, SLAB_PADDING,
+    BVH_STACK, FAR, LEAST_DIRECTION, LOOP_STEPS, MOST_REACH, NODE_STEPS, NONE, ORIGIN_PADDING, SLAB_PADDING,
 };
 
 // A ray, prepared for boxes and triangles.
@@ -15,6 +15,7 @@ struct Ray {
     reciprocal: vec3r,
     origin_hi: vec3r,
     origin_lo: vec3r,
+    origin_face: u32,
     shear: Shear,
 }
 
@@ -40,15 +41,15 @@ var<private> bvh_stack: array<u32, BVH_STACK>;
 // Passes through loops so far, those of the leaves' triangles too: an invocation rests when it has made enough.
 var<private> steps: u32;
 
-// Prepare a ray.
-fn make_ray(origin: vec3r, direction: vec3r) -> Ray {
+// Prepare a ray that leaves the face `origin_face`, or none.
+fn make_ray(origin: vec3r, direction: vec3r, origin_face: u32) -> Ray {
     let to_lo = abs(origin - vec3r(frame.view.scene_lo));
     let to_hi = abs(origin - vec3r(frame.view.scene_hi));
     let reach = greatest(to_lo.x, to_hi.x) + greatest(to_lo.y, to_hi.y) + greatest(to_lo.z, to_hi.z);
     let delta = abs(origin) * ORIGIN_PADDING + vec3r(reach * SLAB_PADDING);
     let reciprocal =
         vec3r(safe_reciprocal(direction.x), safe_reciprocal(direction.y), safe_reciprocal(direction.z));
-    return Ray(origin, direction, reciprocal, origin + delta, origin - delta, shear_of(direction));
+    return Ray(origin, direction, reciprocal, origin + delta, origin - delta, origin_face, shear_of(direction));
 }
 
 // 1/d, finite.
@@ -72,6 +73,9 @@ fn slabs(ray: Ray, lo: vec3r, hi: vec3r) -> Span {
 // The hit on one triangle if it is nearer than `best`, or as near with a lower id; else `best`.
 fn nearer(ray: Ray, index: u32, best: Hit) -> Hit {
     let tri = triangles[index];
+    if tri.id == ray.origin_face {
+        return best;
+    }
     let c = intersect_triangle(ray.origin, ray.direction, ray.shear, tri);
     if !c.found {
         return best;
@@ -99,71 +103,149 @@ fn triangle_slabs(ray: Ray, tri: Triangle) -> Span {
     return slabs(ray, lo, hi);
 }
 
+// Whether a scene can make such a ray: no NaN, and nothing beyond reach.
+fn is_usable(ray: Ray) -> bool {
+    let d = abs(ray.direction);
+    return abs(ray.origin_hi.x) + d.x + d.y + d.z < MOST_REACH;
+}
+
 // The nearest triangle in (0, limit), ties to the lowest primitive id.
+//
+// The CPU tests a leaf's triangles in a loop of their own. Here each round of the one loop tests a triangle, or visits a
+// node, or both: invocations in step then wait for each other once a round, not once a leaf.
 fn intersect(ray: Ray, limit: real) -> Hit {
-    return traverse(ray, limit, false);
-}
-
-// Whether any triangle lies in (0, limit): for scenes in which every blocker is opaque.
-fn occluded(ray: Ray, limit: real) -> bool {
-    return traverse(ray, limit, true).id != NONE;
-}
-
-// Walk the tree: to the nearest hit, or if any will do to the first that is found.
-fn traverse(ray: Ray, limit: real, any_hit: bool) -> Hit {
     var best = Hit(limit, 0u, NONE, 0.0, 0.0, false);
+    if !is_usable(ray) {
+        best.id = NONE;
+        return best;
+    }
     var size = 0u;
     var at = 0u;
+    // Triangles that are still to be tested: of the leaf in work, then of the one behind it.
+    var leaf = vec2u(0u, 0u);
+    var waiting = vec2u(0u, 0u);
     loop {
-        // Meet both children.
         steps += NODE_STEPS;
-        let node = nodes[at];
-        let a = slabs(ray, vec3r(node.a_lo), vec3r(node.a_hi));
-        let b = slabs(ray, vec3r(node.b_lo), vec3r(node.b_hi));
-        // Nearer child first; leaves at once.
-        let swap = b.entry < a.entry;
-        var inner = vec2<bool>(false, false);
-        var first = vec2u(0u, 0u);
-        for (var side = 0u; side < 2u; side++) {
-            let is_a = (side == 0u) != swap;
-            let entry = select(b.entry, a.entry, is_a);
-            let exit = select(b.exit, a.exit, is_a);
-            let begin = select(node.b_first, node.a_first, is_a);
-            let count = select(node.b_count, node.a_count, is_a);
-            let hit = entry <= exit && entry <= best.t;
-            first = select(vec2u(first.x, begin), vec2u(begin, first.y), side == 0u);
-            let enters = hit && count == 0u;
-            inner = select(vec2<bool>(inner.x, enters), vec2<bool>(enters, inner.y), side == 0u);
-            if hit {
-                steps += count + LOOP_STEPS;
-                for (var i = begin; i < begin + count; i++) {
-                    best = nearer(ray, i, best);
-                }
+        if leaf.x < leaf.y {
+            best = nearer(ray, leaf.x, best);
+            leaf.x++;
+            if leaf.x == leaf.y {
+                leaf = waiting;
+                waiting = vec2u(0u, 0u);
             }
         }
-        if any_hit && best.index != NONE {
-            break;
-        }
-        // Descend, the farther one waits.
-        if inner.x && inner.y {
-            bvh_stack[size] = first.y;
-            size++;
-            at = first.x;
-        } else if inner.x {
-            at = first.x;
-        } else if inner.y {
-            at = first.y;
-        } else if size > 0u {
-            size--;
-            at = bvh_stack[size];
-        } else {
-            break;
+        if leaf.x == leaf.y {
+            if at == NONE {
+                break;
+            }
+            // Meet both children.
+            let node = nodes[at];
+            let a = slabs(ray, vec3r(node.a_lo), vec3r(node.a_hi));
+            let b = slabs(ray, vec3r(node.b_lo), vec3r(node.b_hi));
+            let hits_a = a.entry <= a.exit && a.entry <= best.t;
+            let hits_b = b.entry <= b.exit && b.entry <= best.t;
+            // Nearer child first; leaves at once.
+            let swap = b.entry < a.entry;
+            let children = vec4u(node.a_first, node.a_count, node.b_first, node.b_count);
+            let near = select(children.xy, children.zw, swap);
+            let distant = select(children.zw, children.xy, swap);
+            let hits_near = select(hits_a, hits_b, swap);
+            let hits_distant = select(hits_b, hits_a, swap);
+            if hits_near && near.y > 0u {
+                leaf = vec2u(near.x, near.x + near.y);
+            }
+            if hits_distant && distant.y > 0u {
+                let range = vec2u(distant.x, distant.x + distant.y);
+                waiting = select(waiting, range, leaf.x < leaf.y);
+                leaf = select(range, leaf, leaf.x < leaf.y);
+            }
+            // Descend, the farther one waits.
+            let enters_near = hits_near && near.y == 0u;
+            let enters_distant = hits_distant && distant.y == 0u;
+            if enters_near && enters_distant {
+                bvh_stack[size] = distant.x;
+                size++;
+            }
+            if enters_near {
+                at = near.x;
+            } else if enters_distant {
+                at = distant.x;
+            } else if size > 0u {
+                size--;
+                at = bvh_stack[size];
+            } else {
+                at = NONE;
+            }
         }
     }
     if best.index == NONE {
         best.id = NONE;
     }
     return best;
+}
+
+// Whether any triangle lies in (0, limit): for shadows of which every blocker is opaque. In no order, to the first that
+// is found.
+fn occluded(ray: Ray, limit: real) -> bool {
+    if !is_usable(ray) {
+        return false;
+    }
+    let nothing = Hit(limit, 0u, NONE, 0.0, 0.0, false);
+    var size = 0u;
+    var at = 0u;
+    var leaf = vec2u(0u, 0u);
+    var waiting = vec2u(0u, 0u);
+    loop {
+        steps += NODE_STEPS;
+        if leaf.x < leaf.y {
+            if nearer(ray, leaf.x, nothing).index != NONE {
+                return true;
+            }
+            leaf.x++;
+            if leaf.x == leaf.y {
+                leaf = waiting;
+                waiting = vec2u(0u, 0u);
+            }
+        }
+        if leaf.x == leaf.y {
+            if at == NONE {
+                break;
+            }
+            // Meet both children.
+            let node = nodes[at];
+            let a = slabs(ray, vec3r(node.a_lo), vec3r(node.a_hi));
+            let b = slabs(ray, vec3r(node.b_lo), vec3r(node.b_hi));
+            let hits_a = a.entry <= a.exit && a.entry <= limit;
+            let hits_b = b.entry <= b.exit && b.entry <= limit;
+            // Leaves at once.
+            if hits_a && node.a_count > 0u {
+                leaf = vec2u(node.a_first, node.a_first + node.a_count);
+            }
+            if hits_b && node.b_count > 0u {
+                let range = vec2u(node.b_first, node.b_first + node.b_count);
+                waiting = select(waiting, range, leaf.x < leaf.y);
+                leaf = select(range, leaf, leaf.x < leaf.y);
+            }
+            // Descend, the second one waits.
+            let enters_a = hits_a && node.a_count == 0u;
+            let enters_b = hits_b && node.b_count == 0u;
+            if enters_a && enters_b {
+                bvh_stack[size] = node.b_first;
+                size++;
+            }
+            if enters_a {
+                at = node.a_first;
+            } else if enters_b {
+                at = node.b_first;
+            } else if size > 0u {
+                size--;
+                at = bvh_stack[size];
+            } else {
+                at = NONE;
+            }
+        }
+    }
+    return false;
 }
 
 // The limit of a ray without end.

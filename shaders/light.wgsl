@@ -1,7 +1,7 @@
 // Stop 5 of 7: light. Twin of src/kernel/light.rs.
 
 import package::real::{real, vec3r, least};
-import package::bvh::{make_ray, occluded, steps, traverse};
+import package::bvh::{intersect, make_ray, occluded, steps};
 import package::material::{is_transmissive, shadow_transmission};
 import package::math::{dot3, length3, max3, power};
 import package::media::{attenuation, cross_face, current_medium};
@@ -53,8 +53,11 @@ fn direct(surface: Surface, direction: vec3r, @if(tinted_shadows) media: u32) ->
             var t = vec3r(1.0);
             @if(shadows) {
                 result.shadow_rays++;
-                @if(tinted_shadows) t = transmittance(origin, l, distance, position, media);
-                @else t = transmittance(origin, l, distance, position);
+                // From above its plane a ray that goes up does not meet the face; one that goes down may.
+                let upwards = dot3(surface.face_normal, l) > 0.0;
+                let origin_face = select(NONE, surface.id, upwards);
+                @if(tinted_shadows) t = transmittance(origin, l, distance, position, origin_face, media);
+                @else t = transmittance(origin, l, distance, position, origin_face);
                 if max3(t) <= 0.0 {
                     continue;
                 }
@@ -90,19 +93,21 @@ fn phong(n: vec3r, l: vec3r, direction: vec3r, cosine: real, shininess: real, sp
 }
 
 // Tj: what comes straight, unrefracted, from a light to a point in the given media, per channel.
-fn transmittance(origin: vec3r, l: vec3r, distance: real, light: vec3r, @if(tinted_shadows) media: u32) -> vec3r {
-    @if(!tinted_shadows) return select(vec3r(1.0), vec3r(0.0), occluded(make_ray(origin, l), distance));
+fn transmittance(
+    origin: vec3r, l: vec3r, distance: real, light: vec3r, origin_face: u32, @if(tinted_shadows) media: u32,
+) -> vec3r {
+    // Where every body is opaque one blocker decides, whichever it is.
+    @if(!tinted_shadows) return select(vec3r(1.0), vec3r(0.0), occluded(make_ray(origin, l, origin_face), distance));
     @if(tinted_shadows) {
-        // Where every body is opaque one blocker decides, whichever it is.
-        let any_hit = frame.view.transmissive_bodies == 0u;
         var result = vec3r(1.0);
         var mask = media;
         var start = origin;
+        var face = origin_face;
         var left = distance;
         for (var i = 0u; i < MAX_PASSES; i++) {
             steps += LOOP_STEPS;
-            let ray = make_ray(start, l);
-            let hit = traverse(ray, left, any_hit);
+            let ray = make_ray(start, l, face);
+            let hit = intersect(ray, left);
             let medium = current_medium(mask);
             if hit.id == NONE {
                 @if(absorption) result = result * attenuation(medium, left);
@@ -123,6 +128,7 @@ fn transmittance(origin: vec3r, l: vec3r, distance: real, light: vec3r, @if(tint
             }
             mask = next;
             start = spawn_behind(surface);
+            face = surface.id;
             left = length3(light - start);
         }
         return vec3r(0.0);

@@ -16,7 +16,7 @@ fn probe_bend(@builtin(global_invocation_id) id: vec3u) {
     }
     let origin = take3();
     let direction = take3();
-    var branch = Branch(origin, take_word(), direction, 0u, vec3r(1.0), RAY_PRIMARY);
+    var branch = Branch(origin, take_word(), direction, 0u, vec3r(1.0), RAY_PRIMARY, NONE);
     let reflect = take_word();
     let limit = take_word();
     var ids: array<u32, BEND_LIMIT>;
@@ -50,11 +50,11 @@ fn probe_bend(@builtin(global_invocation_id) id: vec3u) {
             reflected |= bit;
             branch = Branch(
                 spawn_before(landing.surface), landing.media, children.reflected, 0u,
-                branch.weight * children.reflection, RAY_PRIMARY);
+                branch.weight * children.reflection, RAY_PRIMARY, landing.surface.id);
         } else {
             branch = Branch(
                 spawn_behind(landing.surface), landing.media_behind, children.refracted, 0u,
-                branch.weight * children.transmission, RAY_PRIMARY);
+                branch.weight * children.transmission, RAY_PRIMARY, landing.surface.id);
         }
     }
     put_word(end);

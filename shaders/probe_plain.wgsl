@@ -1,4 +1,4 @@
-// Entry points: functions of numbers alone, each over many inputs. Twins in tests/lockstep/probes/plain.rs.
+// Entry points: functions of numbers alone, each over many inputs. Twins in src/selftest/lockstep/plain.rs.
 
 import package::real::{real, vec3r};
 import package::probe::{begin, put, put3, put_flag, put_word, take, take3, take_word};

@@ -17,6 +17,7 @@ fn probe_walk(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     var origin = take3();
+    var origin_face = NONE;
     let direction = take3();
     var media = take_word();
     let limit = take_word();
@@ -28,7 +29,7 @@ fn probe_walk(@builtin(global_invocation_id) id: vec3u) {
     var point = vec3r(0.0);
     var escaped = false;
     while !escaped && faces < limit {
-        let ray = make_ray(origin, direction);
+        let ray = make_ray(origin, direction, origin_face);
         let hit = intersect(ray, far());
         escaped = hit.id == NONE;
         if !escaped {
@@ -45,6 +46,7 @@ fn probe_walk(@builtin(global_invocation_id) id: vec3u) {
             }
             media = cross_face(media, hit.id, hit.front);
             origin = spawn_behind(surface);
+            origin_face = hit.id;
         }
     }
     put_flag(escaped);
@@ -73,12 +75,12 @@ fn probe_leave(@builtin(global_invocation_id) id: vec3u) {
     let behind = take_word() == 1u;
     let rounds = take_word();
     let front = dot3(vec3r(attributes[face].normal), arriving) < 0.0;
-    let surface = resolve(make_ray(vec3r(0.0), arriving), Hit(0.0, face, index, b1, b2, front));
+    let surface = resolve(make_ray(vec3r(0.0), arriving, NONE), Hit(0.0, face, index, b1, b2, front));
     var origin = spawn_before(surface);
     if behind {
         origin = spawn_behind(surface);
     }
-    let hit = intersect(make_ray(origin, leaving), far());
+    let hit = intersect(make_ray(origin, leaving, face), far());
     put3(origin);
     put_word(hit.id);
     put(hit.t);

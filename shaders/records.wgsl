@@ -110,9 +110,29 @@ struct FilmHead {
     listed: atomic<u32>,
 }
 
+// One ray of a pixel's tree.
+struct TreeNode {
+    origin: vec3f, kind: u32,
+    direction: vec3f, depth: u32,
+    weight: vec3f, end: u32,
+    light: vec3f, media: u32,
+    point: vec3f, id: u32,
+    normal: vec3f, body: u32,
+    arriving: vec3f, media_behind: u32,
+    distance: f32, front: u32, children: u32, seen: u32,
+    shadow_rays: u32, reserved: array<u32, 3>,
+}
+
+// The tree of the one pixel that is traced.
+@if(tree) struct Tree {
+    count: u32,
+    nodes: array<TreeNode, TREE_NODES>,
+}
+
 // The film, with the invocations of one dispatch.
 struct Film {
     head: FilmHead,
     lanes: array<Lane, LANES>,
+    @if(tree) tree: Tree,
     texels: array<FilmTexel>,
 }

@@ -11,6 +11,7 @@ import package::light::direct;
 import package::material::{is_transmissive, scatter};
 import package::math::max3;
 import package::media::{attenuation, cross_face, current_medium};
+import package::record::{record_end, record_surface};
 import package::records::Aov;
 import package::surface::{Surface, resolve, spawn_before, spawn_behind};
 import package::bindings::{film, frame};
@@ -26,6 +27,7 @@ struct Branch {
     depth: u32,
     weight: vec3r,
     kind: u32,
+    origin_face: u32,
 }
 
 // How a branch ends: where it meets a surface that matters, or `found` false where it meets none.
@@ -126,12 +128,14 @@ fn start_tree(direction: vec3r) {
     @if(aovs) { sample.aov = Aov(vec3f(0.0), 0.0, NONE, NONE, vec2u(0u)); }
     @if(adaptive) { sample.first_body = NONE; }
     @if(branches) stack_size = 0u;
+    @if(tree) film.tree.count = 0u;
     current.origin = vec3r(frame.view.eye);
     @if(transmission) current.media = frame.view.start_media;
     current.direction = direction;
     current.depth = 0u;
     current.weight = vec3r(1.0);
     current.kind = RAY_PRIMARY;
+    current.origin_face = NONE;
 }
 
 // Leave a branch for later.
@@ -202,7 +206,7 @@ fn count_ray(kind: u32) {
 fn find_surface(branch: Branch) -> Landing {
     var landing: Landing;
     @if(!transmission) {
-        let ray = make_ray(branch.origin, branch.direction);
+        let ray = make_ray(branch.origin, branch.direction, branch.origin_face);
         let hit = intersect(ray, far());
         if hit.id != NONE {
             landing.found = true;
@@ -212,11 +216,12 @@ fn find_surface(branch: Branch) -> Landing {
     }
     @if(transmission) {
         var origin = branch.origin;
+        var origin_face = branch.origin_face;
         landing.media = branch.media;
         landing.distance = 0.0;
         for (var i = 0u; i < MAX_PASSES; i++) {
             steps += LOOP_STEPS;
-            let ray = make_ray(origin, branch.direction);
+            let ray = make_ray(origin, branch.direction, origin_face);
             let hit = intersect(ray, far());
             if hit.id == NONE {
                 return landing;
@@ -231,6 +236,7 @@ fn find_surface(branch: Branch) -> Landing {
             }
             landing.media = landing.media_behind;
             origin = spawn_behind(landing.surface);
+            origin_face = hit.id;
         }
         landing.stuck = true;
     }
@@ -239,7 +245,9 @@ fn find_surface(branch: Branch) -> Landing {
 
 // A branch that meets nothing sees the background. A cut one takes it too, and is accounted for.
 fn see_background(branch: Branch, cut: bool) {
-    sample.radiance = sample.radiance + branch.weight * background(branch.direction);
+    let light = branch.weight * background(branch.direction);
+    sample.radiance = sample.radiance + light;
+    @if(tree) record_end(branch, light, cut);
     if !cut {
         sample.primitive_hash = mix_hash(sample.primitive_hash, branch.kind);
         sample.body_hash = mix_hash(sample.body_hash, branch.kind);
@@ -266,7 +274,8 @@ fn shade(branch: Branch, landing: Landing) -> Next {
     // Local light.
     @if(tinted_shadows) let local = direct(surface, branch.direction, landing.media);
     @else let local = direct(surface, branch.direction);
-    sample.radiance = sample.radiance + weight * local.radiance;
+    let light = weight * local.radiance;
+    sample.radiance = sample.radiance + light;
     sample.rays += local.shadow_rays;
     sample.rays_by_kind[RAY_SHADOW] += local.shadow_rays;
     note_path(branch.kind, surface, local.seen);
@@ -283,6 +292,7 @@ fn shade(branch: Branch, landing: Landing) -> Next {
     // Children: where there are two, reflection waits.
     var next: Next;
     @if(bounces) let scattered = scatter(surface, branch.direction, before, behind);
+    @if(tree) record_surface(branch, landing, weight, light, local, scattered);
     @if(reflection) {
         if scattered.reflects {
             next.found = true;
@@ -292,6 +302,7 @@ fn shade(branch: Branch, landing: Landing) -> Next {
             next.branch.depth = branch.depth + 1u;
             next.branch.weight = weight * scattered.reflection;
             next.branch.kind = RAY_REFLECTION;
+            next.branch.origin_face = surface.id;
         }
     }
     @if(transmission) {
@@ -308,6 +319,7 @@ fn shade(branch: Branch, landing: Landing) -> Next {
             next.branch.depth = branch.depth + 1u;
             next.branch.weight = weight * scattered.transmission;
             next.branch.kind = RAY_REFRACTION;
+            next.branch.origin_face = surface.id;
         }
     }
     return next;

@@ -9,5 +9,8 @@ pub mod flatten;
 pub mod gpu;
 pub mod kernel;
 pub mod layout;
+pub mod plot;
 pub mod scene;
 pub mod selftest;
+pub mod study;
+pub mod trace;

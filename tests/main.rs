@@ -5,5 +5,8 @@ mod effects;
 mod fuzz;
 mod layering;
 mod lockstep;
+mod properties;
 mod scenes;
 mod selftest;
+mod study;
+mod trace;

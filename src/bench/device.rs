@@ -41,7 +41,7 @@ impl Target {
         Ok(match self {
             Self::Cpu { threads } => Tracer::Cpu(CpuRenderer::new(scene, *threads)?),
             Self::Adapter(report) => {
-                let options = GpuOptions { adapter: Some(report.name.clone()) };
+                let options = GpuOptions { adapter: Some(report.name.clone()), ..GpuOptions::default() };
                 Tracer::Gpu(Box::new(GpuRenderer::new(scene, &options)?))
             }
         })

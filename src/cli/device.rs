@@ -1,6 +1,7 @@
 //! Which device traces.
 
 use std::fs;
+use std::path::PathBuf;
 
 use super::CliError;
 use super::console::Console;
@@ -67,10 +68,17 @@ impl Choice {
                 Ok(Device::Cpu(CpuRenderer::new(scene, threads)?))
             }
             Self::Gpu { adapter } => {
-                Ok(Device::Gpu(Box::new(GpuRenderer::new(scene, &GpuOptions { adapter })?)))
+                let options = GpuOptions { adapter, pipeline_cache: pipeline_folder() };
+                Ok(Device::Gpu(Box::new(GpuRenderer::new(scene, &options)?)))
             }
         }
     }
+}
+
+/// Where compiled pipelines are kept between runs: the user's cache folder, as the operating system has it.
+fn pipeline_folder() -> Option<PathBuf> {
+    let folders = directories::ProjectDirs::from("", "", "snellius")?;
+    Some(folders.cache_dir().join("pipelines"))
 }
 
 /// The first real adapter that has what is needed, else the CPU; and why.

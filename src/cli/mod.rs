@@ -11,8 +11,11 @@ mod devices;
 mod diff;
 mod error;
 mod prepare;
+mod progress;
 mod render;
 mod selftest;
+mod study;
+mod trace;
 mod values;
 mod view;
 
@@ -63,6 +66,8 @@ enum Command {
     Bench(bench::BenchArgs),
     Devices(devices::DevicesArgs),
     Diff(diff::DiffArgs),
+    Study(study::StudyArgs),
+    Trace(trace::TraceArgs),
     Selftest(selftest::SelftestArgs),
     /// A scene, or a mistake.
     #[command(external_subcommand)]
@@ -93,6 +98,8 @@ fn run(cli: Cli, console: Console) -> Result<Outcome, CliError> {
         Some(Command::Bench(args)) => bench::run(&args, console),
         Some(Command::Devices(args)) => devices::run(&args, console),
         Some(Command::Diff(args)) => diff::run(args, console),
+        Some(Command::Study(args)) => study::run(args, console),
+        Some(Command::Trace(args)) => trace::run(&args, console),
         Some(Command::Selftest(args)) => selftest::run(&args, console),
         Some(Command::Scene(words)) => Err(view::no_viewer(&words)),
         None => {

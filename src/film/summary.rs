@@ -14,7 +14,8 @@ pub struct MeanMax {
 }
 
 impl MeanMax {
-    fn of(values: impl ExactSizeIterator<Item = f64>) -> Self {
+    /// Of any values.
+    pub fn over(values: impl ExactSizeIterator<Item = f64>) -> Self {
         let count = values.len().max(1) as f64;
         let (sum, max) = values
             .fold((0.0, 0.0), |(sum, max), v| (sum + v, if v <= max || max.is_nan() { max } else { v }));
@@ -41,9 +42,9 @@ impl Summary {
     pub fn of(frame: &Frame) -> Self {
         let is_finite = |radiance: &[f32; 3]| radiance.iter().all(|v| v.is_finite());
         Self {
-            dropped: MeanMax::of(frame.texels.iter().map(|t| f64::from(t.dropped))),
-            bound: MeanMax::of(frame.texels.iter().map(|t| f64::from(t.bound))),
-            samples: MeanMax::of((0..frame.texels.len()).map(|i| f64::from(frame.samples.of(i)))),
+            dropped: MeanMax::over(frame.texels.iter().map(|t| f64::from(t.dropped))),
+            bound: MeanMax::over(frame.texels.iter().map(|t| f64::from(t.bound))),
+            samples: MeanMax::over((0..frame.texels.len()).map(|i| f64::from(frame.samples.of(i)))),
             non_finite_pixels: frame.texels.iter().filter(|t| !is_finite(&t.radiance)).count(),
         }
     }

@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use super::adapters::{AdapterReport, choose, instance};
+use super::cache::PipelineCache;
 use super::pipeline::STORAGE_BUFFERS;
 use super::{GpuError, GpuOptions, quiet};
 
@@ -14,13 +15,15 @@ const PATIENCE: Duration = Duration::from_secs(60);
 /// Bytes that one submission moves between the host and the device.
 const TRANSFER: u64 = 32 << 20;
 
-/// A device, its queue, and what went wrong there.
+/// A device, its queue, and what went wrong there. A clone is the same device.
+#[derive(Clone)]
 pub(super) struct Context {
     pub(super) adapter: AdapterReport,
     /// [`Tile::step_budget`](crate::layout::Tile) of its submissions.
     pub(super) step_budget: u32,
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
+    pub(super) pipeline_cache: Arc<PipelineCache>,
     faults: Arc<Mutex<Option<Fault>>>,
 }
 
@@ -43,7 +46,9 @@ impl Context {
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("snellius"),
             required_features: adapter.features()
-                & (wgpu::Features::PASSTHROUGH_SHADERS | wgpu::Features::SHADER_F64),
+                & (wgpu::Features::PASSTHROUGH_SHADERS
+                    | wgpu::Features::SHADER_F64
+                    | wgpu::Features::PIPELINE_CACHE),
             required_limits: limits(&report),
             ..wgpu::DeviceDescriptor::default()
         };
@@ -51,7 +56,15 @@ impl Context {
             .map_err(|error| report.refused("a device", error.to_string()))?;
         let faults = Arc::default();
         listen(&device, &faults);
-        Ok(Self { step_budget: report.step_budget(), adapter: report, device, queue, faults })
+        let cache = PipelineCache::open(&device, &adapter.get_info(), options.pipeline_cache.as_deref());
+        Ok(Self {
+            step_budget: report.step_budget(),
+            adapter: report,
+            device,
+            queue,
+            pipeline_cache: Arc::new(cache),
+            faults,
+        })
     }
 
     /// What the driver reported since the last time.

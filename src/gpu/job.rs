@@ -24,6 +24,8 @@ pub(super) struct Job<'a> {
     pub(super) group: wgpu::BindGroup,
     pub(super) blocks: Blocks,
     pub(super) band_height: u32,
+    /// Bytes before the recorded tree in the film.
+    pub(super) tree_at: u64,
 }
 
 impl Job<'_> {

@@ -20,6 +20,7 @@ mod adaptive;
 mod assemble;
 mod blocks;
 mod buffers;
+mod cache;
 mod context;
 mod error;
 mod film;
@@ -28,22 +29,29 @@ mod job;
 mod locate;
 mod pace;
 mod pipeline;
+mod pipelines;
+mod portions;
 mod probe;
 mod quiet;
 mod render;
 mod sources;
 mod spirv;
 mod testing;
+mod tree;
 mod variant;
+
+use std::path::PathBuf;
 
 pub use adapters::{AdapterKind, AdapterReport, adapters};
 pub use assemble::{Shader, Source, assemble};
 pub use error::GpuError;
 pub use float_controls::{FloatControls, Promises};
+pub use portions::Portions;
 pub use probe::Prober;
 pub use render::GpuRenderer;
 pub use sources::SOURCES;
 pub use spirv::write_spirv;
+pub use tree::GpuTree;
 pub use variant::Variant;
 
 /// Which adapter to take.
@@ -51,4 +59,7 @@ pub use variant::Variant;
 pub struct GpuOptions {
     /// Part of its name, in any case; without it `WGPU_ADAPTER_NAME` decides, else the best kind is taken.
     pub adapter: Option<String>,
+    /// Folder that keeps compiled pipelines from one run to the next, if any. It is made where it is missing; faults with
+    /// it are logged, and cost only the time to compile.
+    pub pipeline_cache: Option<PathBuf>,
 }

@@ -1,6 +1,7 @@
 //! A scene on an adapter, and the pictures that are traced of it.
 
 use std::collections::{HashMap, HashSet};
+use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use super::adaptive::Sifter;
@@ -10,14 +11,11 @@ use super::context::Context;
 use super::film::{FilmBuffer, PixelLayout};
 use super::job::Job;
 use super::pace::Pace;
-use super::pipeline::Compiled;
-use super::{AdapterReport, GpuError, GpuOptions, SOURCES, Source, Variant, pipeline};
+use super::pipelines::Pipelines;
+use super::{AdapterReport, GpuError, GpuOptions, Portions, SOURCES, Source, Variant};
 use crate::film::{Frame, Progress, RayCounts, Renderer, SampleCounts, TraceTimes};
 use crate::layout::constants::BLOCK;
 use crate::layout::{FlatScene, Float, Plan, Scan, Settings, Tile, View};
-
-/// File and name of the entry point.
-const ENTRY: (&str, &str) = ("render", "render");
 
 /// A scene on an adapter.
 pub struct GpuRenderer {
@@ -30,11 +28,13 @@ pub struct GpuRenderer {
     scan: Scan,
     /// What the upload took, until a frame has told it.
     upload: Duration,
-    pipelines: HashMap<Variant, Compiled>,
+    pipelines: Pipelines,
     pub(super) sifters: HashMap<Variant, Sifter>,
     /// Variants that have been dispatched.
     warm: HashSet<Variant>,
     pub(super) film: Option<FilmBuffer>,
+    /// See [`Portions::pixels`].
+    band_pixels: u64,
 }
 
 impl GpuRenderer {
@@ -59,6 +59,7 @@ impl GpuRenderer {
         let context = Context::new(options)?;
         let start = Instant::now();
         let buffers = SceneBuffers::new(&context, scene)?;
+        let pipelines = Pipelines::new(&context, &buffers.layout, sources);
         Ok(Self {
             context,
             sources,
@@ -66,10 +67,11 @@ impl GpuRenderer {
             bvh_depth: scene.bvh_depth,
             scan: Scan::of(scene),
             upload: start.elapsed(),
-            pipelines: HashMap::new(),
+            pipelines,
             sifters: HashMap::new(),
             warm: HashSet::new(),
             film: None,
+            band_pixels: u64::MAX,
         })
     }
 
@@ -77,6 +79,18 @@ impl GpuRenderer {
     #[must_use]
     pub fn adapter(&self) -> &AdapterReport {
         &self.context.adapter
+    }
+
+    /// How much of a picture is traced at a time: at first, what suits the adapter.
+    #[must_use]
+    pub fn portions(&self) -> Portions {
+        Portions { steps: self.context.step_budget, pixels: self.band_pixels }
+    }
+
+    /// Trace that much at a time.
+    pub fn set_portions(&mut self, portions: Portions) {
+        self.context.step_budget = portions.steps;
+        self.band_pixels = portions.pixels;
     }
 
     /// Put another scene in place of this one. What was compiled is kept, unless the new scene's tree is deeper.
@@ -99,7 +113,21 @@ impl GpuRenderer {
     pub fn invocation_bytes(&mut self, settings: &Settings) -> Result<u64, GpuError> {
         let variant = self.variant(settings);
         let invocations = u64::from(variant.most_blocks() * BLOCK * BLOCK);
-        Ok(self.pipeline(&variant)?.texels_at / invocations)
+        Ok(self.pipelines.compile(&variant)?.texels_at / invocations)
+    }
+
+    /// Whether the pipeline that these settings need is compiled.
+    #[must_use]
+    pub fn is_compiled(&self, settings: &Settings) -> bool {
+        self.pipelines.get(&self.variant(settings)).is_some()
+    }
+
+    /// Compile the pipeline that these settings need on another thread. Until it is there, a render with
+    /// [`EffectChoice::All`](crate::layout::EffectChoice::All) gives the same picture by a pipeline that may be: the general
+    /// one serves any scene of that depth.
+    pub fn compile_ahead(&self, settings: &Settings) -> JoinHandle<Result<(), GpuError>> {
+        let (pipelines, variant) = (self.pipelines.clone(), self.variant(settings));
+        thread::spawn(move || pipelines.compile(&variant).map(drop))
     }
 
     /// What is simulated under these settings.
@@ -109,14 +137,19 @@ impl GpuRenderer {
 
     /// The variant for these settings: fast where the adapter cannot be strict.
     fn variant(&self, settings: &Settings) -> Variant {
-        let variant = Variant::new(self.bvh_depth, settings, &self.plan(settings));
+        let variant = self.variant_of(settings, &self.plan(settings));
         let float = if self.context.adapter.strict_float { variant.float } else { Float::Fast };
         Variant { float, ..variant }
     }
 
+    /// The variant of a plan, as strict as the settings ask.
+    pub(super) fn variant_of(&self, settings: &Settings, plan: &Plan) -> Variant {
+        Variant::new(self.bvh_depth, settings, plan)
+    }
+
     /// Compile the variant, make room for the picture and take it in view.
     pub(super) fn prepare(&mut self, view: &View, variant: &Variant) -> Result<Job<'_>, GpuError> {
-        let compiled = self.pipeline(variant)?;
+        let compiled = self.pipelines.compile(variant)?;
         let [_, _, width, height] = view.crop;
         let blocks = Blocks::new(width, height);
         let layout = PixelLayout::of(variant);
@@ -126,8 +159,15 @@ impl GpuRenderer {
         let is_cold = self.warm.insert(*variant);
         self.scene.set_view(&self.context, view);
         let group = self.scene.bind(&self.context, &film.buffer);
-        let job =
-            Job { context: &self.context, pipeline: compiled.pipeline, film, group, blocks, band_height };
+        let job = Job {
+            context: &self.context,
+            pipeline: compiled.pipeline,
+            film,
+            group,
+            blocks,
+            band_height,
+            tree_at: compiled.tree_at,
+        };
         if is_cold {
             // Some drivers compile at the first dispatch: have one outside the picture.
             job.submit(Tile { first_block: blocks.count(), block_count: 1, ..Tile::default() })?;
@@ -137,11 +177,11 @@ impl GpuRenderer {
 
     /// Rows of the view's crop that fit one film, in whole blocks; one row of blocks at the least.
     pub(super) fn film_rows(&mut self, view: &View, variant: &Variant) -> Result<u32, GpuError> {
-        let compiled = self.pipeline(variant)?;
+        let compiled = self.pipelines.compile(variant)?;
         let [_, _, width, height] = view.crop;
         let limit = self.context.largest_binding();
         let most_pixels = FilmBuffer::most_pixels(limit, compiled.texels_at, PixelLayout::of(variant));
-        Ok(Blocks::new(width, height).band_height(most_pixels))
+        Ok(Blocks::new(width, height).band_height(most_pixels.min(self.band_pixels)))
     }
 
     /// The film of the last picture if it is laid out so, else a new one.
@@ -151,16 +191,6 @@ impl GpuRenderer {
             _ => FilmBuffer::new(&self.context, texels_at, pixels, layout)?,
         };
         Ok(self.film.insert(film).clone())
-    }
-
-    /// The variant's pipeline.
-    fn pipeline(&mut self, variant: &Variant) -> Result<Compiled, GpuError> {
-        if let Some(pipeline) = self.pipelines.get(variant) {
-            return Ok(pipeline.clone());
-        }
-        let pipeline = pipeline::compile(&self.context, &self.scene.layout, self.sources, ENTRY, variant)?;
-        self.pipelines.insert(*variant, pipeline.clone());
-        Ok(pipeline)
     }
 }
 

@@ -27,6 +27,7 @@ pub(super) const PLAIN: Variant = Variant {
     lights: Lights::Many,
     stack_size: 16,
     bvh_stack: 24,
+    tree: false,
 };
 
 /// A scene of `scenes/`, to be traced in f32 with AOVs.

@@ -3,8 +3,8 @@
 use crate::layout::constants::{BLOCK, ROUNDOFF_F32, ROUNDOFF_F64, SHARED, Shared};
 use crate::layout::{Effect, EffectSet, Float, Intersector, Lights, Plan, Precision, Settings};
 
-/// Bytes of a waiting ray in f32; in f64 twice as many.
-const BRANCH_BYTES: u32 = 48;
+/// Bytes of a waiting ray in f32; in f64 at most twice as many.
+const BRANCH_BYTES: u32 = 64;
 /// Waiting rays that the rest of an invocation's memory counts for: the sample and the ray in work.
 const SAMPLE_BRANCHES: u32 = 4;
 /// Bytes that the invocations of one dispatch may take.
@@ -33,6 +33,8 @@ pub struct Variant {
     pub stack_size: u32,
     /// Pending nodes of a traversal. Constant `BVH_STACK`.
     pub bvh_stack: u32,
+    /// Feature `tree`: the film holds the ray tree of the one pixel that is traced.
+    pub tree: bool,
 }
 
 impl Variant {
@@ -47,6 +49,7 @@ impl Variant {
             lights: plan.lights,
             stack_size: plan.waiting,
             bvh_stack: bvh_depth.saturating_sub(1).max(1),
+            tree: false,
         }
     }
 
@@ -80,6 +83,7 @@ impl Variant {
         let own = [
             ("f64", self.precision == Precision::F64),
             ("moller_trumbore", self.intersector == Intersector::MollerTrumbore),
+            ("tree", self.tree),
             ("lights", self.lights != Lights::None),
             ("one_light", self.lights == Lights::One),
             // A surface may send a ray on; and two of them.

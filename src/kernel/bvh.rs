@@ -8,7 +8,9 @@
 //! winning triangle is ever culled.
 
 use crate::layout::Triangle;
-use crate::layout::constants::{FAR, LEAST_DIRECTION, MAX_BVH_DEPTH, NONE, ORIGIN_PADDING, SLAB_PADDING};
+use crate::layout::constants::{
+    FAR, LEAST_DIRECTION, MAX_BVH_DEPTH, MOST_REACH, NONE, ORIGIN_PADDING, SLAB_PADDING,
+};
 
 use super::triangle::{Shear, intersect_triangle, shear_of};
 use super::{Real, Simulation, Vec3, World};
@@ -26,6 +28,8 @@ pub struct Ray<R> {
     pub origin_hi: Vec3<R>,
     /// See `origin_hi`.
     pub origin_lo: Vec3<R>,
+    /// Primitive id of the face that it leaves, `NONE` for none: being straight, it does not meet that face again.
+    pub origin_face: u32,
     /// For the triangle test.
     pub shear: Shear<R>,
 }
@@ -56,8 +60,13 @@ pub struct Span<R> {
     pub exit: R,
 }
 
-/// Prepare a ray.
-pub fn make_ray<R: Real>(world: &World<impl Simulation>, origin: Vec3<R>, direction: Vec3<R>) -> Ray<R> {
+/// Prepare a ray that leaves the face `origin_face`, or none.
+pub fn make_ray<R: Real>(
+    world: &World<impl Simulation>,
+    origin: Vec3<R>,
+    direction: Vec3<R>,
+    origin_face: u32,
+) -> Ray<R> {
     let to_lo = (origin - Vec3::load(world.view.scene_lo)).abs();
     let to_hi = (origin - Vec3::load(world.view.scene_hi)).abs();
     let reach = to_lo.x.greatest(to_hi.x) + to_lo.y.greatest(to_hi.y) + to_lo.z.greatest(to_hi.z);
@@ -68,6 +77,7 @@ pub fn make_ray<R: Real>(world: &World<impl Simulation>, origin: Vec3<R>, direct
         reciprocal: direction.map(safe_reciprocal),
         origin_hi: origin + delta,
         origin_lo: origin - delta,
+        origin_face,
         shear: shear_of(direction),
     }
 }
@@ -98,6 +108,9 @@ pub fn slabs<R: Real>(ray: &Ray<R>, lo: Vec3<R>, hi: Vec3<R>) -> Span<R> {
 /// The hit on one triangle if it is nearer than `best`, or as near with a lower id; else `best`.
 pub fn nearer<R: Real>(world: &World<impl Simulation>, ray: &Ray<R>, index: u32, best: Hit<R>) -> Hit<R> {
     let tri = &world.scene.triangles[index as usize];
+    if tri.id == ray.origin_face {
+        return best;
+    }
     let Some(c) = intersect_triangle(world.intersector, ray.origin, ray.direction, &ray.shear, tri) else {
         return best;
     };
@@ -123,19 +136,20 @@ pub fn triangle_slabs<R: Real>(ray: &Ray<R>, tri: &Triangle) -> Span<R> {
     slabs(ray, lo, hi)
 }
 
+/// Whether a scene can make such a ray: one with a NaN would enter every box, for comparisons tell nothing about it, and
+/// so would one from so far that the padding swallows the scene.
+pub fn is_usable<R: Real>(ray: &Ray<R>) -> bool {
+    let d = ray.direction.abs();
+    // The padding of each component holds all of the origin.
+    ray.origin_hi.x.abs() + d.x + d.y + d.z < R::of(MOST_REACH)
+}
+
 /// The nearest triangle in (0, limit), ties to the lowest primitive id.
 pub fn intersect<R: Real>(world: &World<impl Simulation>, ray: &Ray<R>, limit: R) -> Hit<R> {
-    traverse(world, ray, limit, false)
-}
-
-/// Whether any triangle lies in (0, limit): for scenes in which every blocker is opaque.
-pub fn occluded<R: Real>(world: &World<impl Simulation>, ray: &Ray<R>, limit: R) -> bool {
-    traverse(world, ray, limit, true).id != NONE
-}
-
-/// Walk the tree: to the nearest hit, or if `any` will do to the first that is found.
-pub fn traverse<R: Real>(world: &World<impl Simulation>, ray: &Ray<R>, limit: R, any: bool) -> Hit<R> {
     let mut best = Hit { t: limit, id: 0, index: NONE, b1: R::ZERO, b2: R::ZERO, front: false };
+    if !is_usable(ray) {
+        return Hit { id: NONE, ..best };
+    }
     let mut stack = [0u32; MAX_BVH_DEPTH as usize];
     let mut size = 0;
     let mut at = 0u32;
@@ -160,9 +174,6 @@ pub fn traverse<R: Real>(world: &World<impl Simulation>, ray: &Ray<R>, limit: R,
                 }
             }
         }
-        if any && best.index != NONE {
-            break;
-        }
         // Descend, the farther one waits.
         if inner[0] && inner[1] {
             stack[size] = first[1];
@@ -183,6 +194,41 @@ pub fn traverse<R: Real>(world: &World<impl Simulation>, ray: &Ray<R>, limit: R,
         best.id = NONE;
     }
     best
+}
+
+/// Whether any triangle lies in (0, limit): for shadows of which every blocker is opaque. In no order, to the first that
+/// is found.
+pub fn occluded<R: Real>(world: &World<impl Simulation>, ray: &Ray<R>, limit: R) -> bool {
+    if !is_usable(ray) {
+        return false;
+    }
+    let nothing = Hit { t: limit, id: 0, index: NONE, b1: R::ZERO, b2: R::ZERO, front: false };
+    let mut stack = [0u32; MAX_BVH_DEPTH as usize];
+    let mut size = 0;
+    let mut at = 0u32;
+    loop {
+        // Meet both children.
+        let node = &world.scene.nodes[at as usize];
+        let a = (slabs(ray, Vec3::load(node.a_lo), Vec3::load(node.a_hi)), node.a_first, node.a_count);
+        let b = (slabs(ray, Vec3::load(node.b_lo), Vec3::load(node.b_hi)), node.b_first, node.b_count);
+        for (span, first, count) in [a, b] {
+            if span.entry > span.exit || span.entry > limit {
+                continue;
+            }
+            // Leaves at once; all others wait.
+            if count == 0 {
+                stack[size] = first;
+                size += 1;
+            } else if (first..first + count).any(|i| nearer(world, ray, i, nothing).index != NONE) {
+                return true;
+            }
+        }
+        if size == 0 {
+            return false;
+        }
+        size -= 1;
+        at = stack[size];
+    }
 }
 
 /// The limit of a ray without end.

@@ -14,6 +14,7 @@ pub mod material;
 pub mod math;
 pub mod media;
 pub mod real;
+pub mod record;
 pub mod surface;
 pub mod texture;
 pub mod triangle;
@@ -23,4 +24,4 @@ mod world;
 
 pub use real::Real;
 pub use vector::Vec3;
-pub use world::{Simulation, World};
+pub use world::{Simulation, Within, World};

@@ -1,6 +1,6 @@
 //! What the shaders have as bindings and features: the flattened scene, the view and how to trace it.
 
-use crate::layout::{Effect, EffectSet, FlatScene, Intersector, View};
+use crate::layout::{Effect, EffectSet, FlatScene, Intersector, TreeNode, View};
 
 /// Which effects a kernel simulates: known as it is compiled, or asked as it runs.
 ///
@@ -10,11 +10,30 @@ use crate::layout::{Effect, EffectSet, FlatScene, Intersector, View};
 pub trait Simulation: Copy + Sync {
     /// Whether an effect is simulated.
     fn simulates(self, effect: Effect) -> bool;
+
+    /// Whether it wants to hear of every ray.
+    fn records(self) -> bool {
+        false
+    }
+
+    /// Hears of a ray, in the order of tracing.
+    fn record(self, _node: TreeNode) {}
 }
 
 impl Simulation for EffectSet {
     fn simulates(self, effect: Effect) -> bool {
         self.has(effect)
+    }
+}
+
+/// A set of effects that a kernel asks as it runs, but of which it knows as it is compiled that it holds none beyond those
+/// of the bits `MOST`.
+#[derive(Debug, Clone, Copy)]
+pub struct Within<const MOST: u32>(pub EffectSet);
+
+impl<const MOST: u32> Simulation for Within<MOST> {
+    fn simulates(self, effect: Effect) -> bool {
+        EffectSet::from_bits(MOST).has(effect) && self.0.has(effect)
     }
 }
 
@@ -31,7 +50,12 @@ pub struct World<'a, S = EffectSet> {
     pub effects: S,
 }
 
-impl<S: Simulation> World<'_, S> {
+impl<'a, S: Simulation> World<'a, S> {
+    /// The same surroundings with other effects.
+    pub fn simulating<T: Simulation>(&self, effects: T) -> World<'a, T> {
+        World { scene: self.scene, view: self.view, intersector: self.intersector, effects }
+    }
+
     /// Whether an effect is simulated.
     pub fn simulates(&self, effect: Effect) -> bool {
         self.effects.simulates(effect)

@@ -62,8 +62,8 @@ shared! {
     MAX_PASSES: u32 = 4096;
     /// Passes that a GPU invocation books for a round of a loop: the round, and one that finds the loop's end.
     LOOP_STEPS: u32 = 2;
-    /// Passes that it books for a node of the BVH: a round of the traversal, and one for each child and their end.
-    NODE_STEPS: u32 = 5;
+    /// Passes that it books for a round of the traversal: a node of the BVH, a triangle, or both.
+    NODE_STEPS: u32 = 1;
     /// Rows of four in [`View::media`](super::View::media).
     MEDIA_ROWS: u32 = MAX_MEDIA.div_ceil(4);
     /// Rows of four in [`View::radiance_bound`](super::View::radiance_bound): 0 to `MAX_DEPTH` levels.
@@ -82,6 +82,22 @@ shared! {
     SEVERAL: u32 = u32::MAX - 1;
     /// Material index of the air.
     AIR: u32 = 0;
+    /// How a ray of a recorded tree ended: it met a surface.
+    END_SURFACE: u32 = 0;
+    /// It met nothing.
+    END_BACKGROUND: u32 = 1;
+    /// It was not traced: too deep.
+    END_DEPTH: u32 = 2;
+    /// It was not traced: too faint.
+    END_WEIGHT: u32 = 3;
+    /// It met too many interfaces without effect.
+    END_STUCK: u32 = 4;
+    /// Flag of a recorded ray's children: a reflected one.
+    CHILD_REFLECTION: u32 = 1;
+    /// Flag of a recorded ray's children: a refracted one.
+    CHILD_REFRACTION: u32 = 2;
+    /// Rays of a recorded tree that a GPU keeps: the rest is counted.
+    TREE_NODES: u32 = 65_536;
     /// Marks an absent index.
     NONE: u32 = u32::MAX;
     /// Flag in [`Attribute::other`](super::Attribute::other): the second body's outside is on the other side.
@@ -89,6 +105,9 @@ shared! {
 
     /// 2^120: beyond every scene, a ray without end. Finite, since WGSL promises no infinities.
     FAR: f64 = 1.329_227_995_784_916e36;
+    /// 2^64: farther than any ray of a scene within ±2^60 begins from its boxes. A ray with a number beyond it, or with
+    /// one that is none, meets nothing.
+    MOST_REACH: f64 = 18_446_744_073_709_551_616.0;
     /// 2^-40: direction components below this count as this much in the slab test, so that every reciprocal and
     /// every product with it is finite. That much of the distance is far less than [`SLAB_PADDING`] of it.
     LEAST_DIRECTION: f64 = 9.094_947_017_729_282e-13;
@@ -98,15 +117,19 @@ shared! {
     /// And by this much (2^-22) of the origin's own coordinate on each axis: four roundoffs (two where the driver may
     /// rewrite), so that the sum of origin and padding is not rounded back below the padding far away from (0, 0, 0).
     ORIGIN_PADDING: f64 = 2.384_185_791_015_625e-7;
-    /// Rays leave a surface along its normal by this many unit roundoffs of (1) the face's coordinates weighted by the
-    /// hit's barycentrics: 7 bound the rounding of the hit point (Pharr, Jakob, Humphreys, 4th ed., section 6.8.5); and
-    /// (2) the face's extent: what the next test of this very face subtracts, shears and weights; at a grazing angle
-    /// its error in t grows as the distance to the plane along the ray does, so that a bound along the normal serves
-    /// every angle.
-    SPAWN_ROUNDOFFS: f64 = 16.0;
-    /// Points keep this many of those bounds, relative to the face's extent, off the edges: where two faces of a body
-    /// meet, a ray that leaves one of them must be on the right side of the other too.
-    EDGE_OFFSETS: f64 = 8.0;
+    /// A ray that leaves a face never meets that face again, at any angle, because it is told which one it is. It starts
+    /// off its plane all the same, so that the faces beside it and upon it lie on the right side: by this many unit
+    /// roundoffs of the face's coordinates, weighted by the hit's barycentrics, of which 7 bound the rounding of the hit
+    /// point (Pharr, Jakob, Humphreys, 4th ed., section 6.8.5), and half as many of the face's greatest extent: what the
+    /// test of another face in the same plane subtracts and shears.
+    SPAWN_ROUNDOFFS: f64 = 8.0;
+    /// Points keep off the edges of their face: each corner counts for this many unit roundoffs at least, times one and
+    /// the point's coordinates over the face's extent. Where two faces of a body meet, a ray that leaves one of them must
+    /// be on the right side of the other too, or it never meets it and the body is never left. 15 bound the rounding of
+    /// where it starts, as above; the rest is for faces of less height than extent.
+    EDGE_ROUNDOFFS: f64 = 128.0;
+    /// But no corner counts for more: far from the origin, where coordinates are coarser than faces.
+    MOST_EDGE_WEIGHT: f64 = 0.125;
 
     /// Weyl steps of the sample pattern, as fractions of 2^32: 1/φ₂ and 1/φ₂² of the plastic number φ₂
     /// (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences", R2).

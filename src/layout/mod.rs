@@ -10,6 +10,7 @@ mod flat_scene;
 mod records;
 mod settings;
 mod tile;
+mod tree;
 mod view;
 
 pub use adaptive::{Statistics, refinement_rounds};
@@ -18,4 +19,5 @@ pub use flat_scene::{Body, FlatScene, FlatTexture};
 pub use records::{Aov, Attribute, Corner, Light, Material, Node, Texel, Triangle};
 pub use settings::{Backend, Float, Intersector, Precision, Settings};
 pub use tile::{FilmHead, Tile};
+pub use tree::TreeNode;
 pub use view::View;

@@ -39,19 +39,21 @@ impl Scene {
         Self::load_within(path, Limits::default())
     }
 
+    /// [`Scene::load`], with the levels of built-in solids raised by `steps`, or lowered below 0: as far as
+    /// each solid's range goes. Meshes stay as they are.
+    ///
+    /// # Errors
+    /// As [`Scene::load`].
+    pub fn load_refined(path: &Path, steps: i32) -> Result<Self, SceneError> {
+        read(path, Limits::default(), steps)
+    }
+
     /// The same within other limits.
     ///
     /// # Errors
     /// As [`Scene::load`], and what is beyond the limits.
     pub fn load_within(path: &Path, limits: Limits) -> Result<Self, SceneError> {
-        let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-        match extension.as_str() {
-            "toml" => from_toml(&Source::read(path)?, limits),
-            "obj" => from_mesh(path, limits),
-            _ => Err(Diagnostic::error(format!("{} is not a scene", path.display()))
-                .hint("a scene is a .toml file, or a bare .obj mesh")
-                .into()),
-        }
+        read(path, limits, 0)
     }
 
     /// Read a scene from text, as [`load`](Self::load) does from the `.toml` file at `path`: messages name it, and files
@@ -67,16 +69,33 @@ impl Scene {
     /// assert!(Scene::parse("ball.toml".as_ref(), text).unwrap_err().to_string().contains("glas"));
     /// ```
     pub fn parse(path: &Path, text: &str) -> Result<Self, SceneError> {
-        from_toml(&Source::new(path, text.to_owned()), Limits::default())
+        from_toml(&Source::new(path, text.to_owned()), Limits::default(), 0)
+    }
+}
+
+/// Read a scene or a bare mesh, by the path's extension.
+fn read(path: &Path, limits: Limits, refine: i32) -> Result<Scene, SceneError> {
+    let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    match extension.as_str() {
+        "toml" => from_toml(&Source::read(path)?, limits, refine),
+        "obj" => from_mesh(path, limits),
+        _ => Err(Diagnostic::error(format!("{} is not a scene", path.display()))
+            .hint("a scene is a .toml file, or a bare .obj mesh")
+            .into()),
     }
 }
 
 /// Read a scene file.
-fn from_toml(source: &Source, limits: Limits) -> Result<Scene, SceneError> {
+fn from_toml(source: &Source, limits: Limits, refine: i32) -> Result<Scene, SceneError> {
     let document = fault::parse(source)?;
     let directory = source.path.parent().unwrap_or(Path::new(""));
-    let mut shared =
-        Shared { source, directory, materials: Materials::default(), textures: Textures::within(limits) };
+    let mut shared = Shared {
+        source,
+        directory,
+        materials: Materials::default(),
+        textures: Textures::within(limits),
+        refine,
+    };
     let mut faults = Faults::default();
     let camera = document.camera.as_ref().map(|table| faults.keep(camera::camera(table, source)));
     let background = document

@@ -44,6 +44,8 @@ pub(super) struct Shared<'a> {
     pub(super) directory: &'a Path,
     pub(super) materials: Materials,
     pub(super) textures: Textures,
+    /// Steps by which built-in solids are finer than the file says; coarser below 0.
+    pub(super) refine: i32,
 }
 
 impl Models {
@@ -70,7 +72,7 @@ impl Models {
             }
             (None, Some(shape)) => {
                 // Before they are made: a few words ask for many.
-                let triangles = shape.get_ref().triangles();
+                let triangles = shape.get_ref().refined(scene.refine).triangles();
                 self.count(triangles, repeat).map_err(|fault| fault.at(place.clone()))?;
                 self.of_shape(shape, table, scene)?
             }
@@ -155,7 +157,7 @@ impl Models {
         let mesh = match self.shapes.entry(scene.source.text[shape.span()].to_owned()) {
             Entry::Occupied(known) => known.get().clone(),
             Entry::Vacant(new) => {
-                let mesh = shape.get_ref().mesh().map_err(|fault| fault.at(place()))?;
+                let mesh = shape.get_ref().refined(scene.refine).mesh().map_err(|fault| fault.at(place()))?;
                 new.insert(Arc::new(mesh)).clone()
             }
         };

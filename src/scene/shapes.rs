@@ -4,6 +4,7 @@
 //! index. Normals and texture coordinates have indices of their own, so that they may break along an edge.
 
 use super::document::Shape;
+use super::table::Table;
 use super::{Diagnostic, Mesh};
 
 mod builder;
@@ -25,6 +26,18 @@ impl Shape {
             Shape::Cylinder(_) => "cylinder",
             Shape::Torus(_) => "torus",
         }
+    }
+
+    /// The solid with its level moved by so many steps, within its range; boxes and planes have none.
+    pub(super) fn refined(mut self, steps: i32) -> Self {
+        match &mut self {
+            Shape::Sphere(Table(table)) => table.level = table.level.stepped(steps),
+            Shape::RoundedBox(Table(table)) => table.level = table.level.stepped(steps),
+            Shape::Cylinder(Table(table)) => table.level = table.level.stepped(steps),
+            Shape::Torus(Table(table)) => table.level = table.level.stepped(steps),
+            Shape::Box(_) | Shape::Plane(_) => {}
+        }
+        self
     }
 
     /// How many triangles its mesh has.
@@ -175,6 +188,17 @@ mod tests {
                 assert!(!fine || (b - a).abs().max_element() < 0.2, "{shape}");
             }
         }
+    }
+
+    #[test]
+    fn a_finer_level_has_more_triangles_and_the_range_is_kept() {
+        let triangles = |shape: &str, steps| {
+            let document: Document = toml::from_str(&format!("shape = {{ {shape} }}")).unwrap();
+            document.shape.refined(steps).mesh().unwrap().triangles.len()
+        };
+        let sphere = "sphere = { radius = 1, level = 3 }";
+        assert_eq!([-1, 0, 1, -9].map(|steps| triangles(sphere, steps)), [128, 512, 2048, 8]);
+        assert_eq!(triangles("box = { size = [1, 2, 3] }", 3), 12);
     }
 
     #[test]

@@ -1,7 +1,10 @@
 //! The CPU as a device of the self-test.
 
+use std::num::NonZero;
+
 use rayon::prelude::*;
 
+use super::lockstep::Difference;
 use super::{Answered, Bend, Bent, Device, DeviceError, Leave, Left, Stage, Walk, Walked, paths, rays};
 use crate::cpu::CpuRenderer;
 use crate::film::{Frame, Renderer};
@@ -92,6 +95,10 @@ impl Device for CpuDevice {
         })
     }
 
+    fn differences(&mut self, _: usize) -> Answered<Difference> {
+        Ok(Vec::new())
+    }
+
     fn picture(&mut self, stage: &Stage, settings: &Settings) -> Result<Frame, DeviceError> {
         let settings = Settings {
             precision: self.precision,
@@ -101,7 +108,24 @@ impl Device for CpuDevice {
         };
         Ok(CpuRenderer::new(&stage.flat, 0)?.render(&stage.view_for(&settings), &settings, &())?)
     }
+
+    fn shared_out(&mut self, stage: &Stage, settings: &Settings) -> Answered<(String, Frame)> {
+        let settings = Settings { precision: self.precision, intersector: self.intersector, ..*settings };
+        let view = stage.view_for(&settings);
+        let most = std::thread::available_parallelism().map_or(1, NonZero::get);
+        let mut frames = Vec::new();
+        // One thread more than there are cores, so that it is never one only.
+        for (threads, tile) in (1..=most + 1).zip(TILES.into_iter().cycle()) {
+            let mut renderer = CpuRenderer::with_tile(&stage.flat, threads, tile)?;
+            let way = format!("{threads} threads, tiles of {tile} × {tile}");
+            frames.push((way, renderer.render(&view, &settings, &())?));
+        }
+        Ok(frames)
+    }
 }
+
+/// Sides of tiles: a few pixels, the usual one, and one that does not divide a picture.
+const TILES: [u32; 3] = [3, 16, 61];
 
 /// None where it is total.
 fn reflectance<R: Real>([cosine, eta]: [f32; 2]) -> Option<f32> {

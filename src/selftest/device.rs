@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::Stage;
+use super::lockstep::Difference;
 use crate::film::Frame;
 use crate::layout::constants::BEND_LIMIT;
 use crate::layout::{Precision, Settings};
@@ -48,12 +49,26 @@ pub trait Device {
     /// As the device's.
     fn fresnel(&mut self, inputs: &[[f32; 2]]) -> Answered<Option<f32>>;
 
+    /// Compare every function of the kernel with the CPU's in f32, over so many inputs each: those that differ, the
+    /// simplest first. The CPU is what others are compared with, and has none.
+    ///
+    /// # Errors
+    /// As the device's.
+    fn differences(&mut self, records: usize) -> Answered<Difference>;
+
     /// Trace a picture by the stage's camera. Depth, cut-off, samples and auxiliary pictures are as the settings say;
     /// precision, float and ray–triangle test are the device's own.
     ///
     /// # Errors
     /// As the device's.
     fn picture(&mut self, stage: &Stage, settings: &Settings) -> Result<Frame, DeviceError>;
+
+    /// The same picture once for each way of sharing out the work, told in words: threads and tiles on the CPU, rests and
+    /// bands on an adapter.
+    ///
+    /// # Errors
+    /// As the device's.
+    fn shared_out(&mut self, stage: &Stage, settings: &Settings) -> Answered<(String, Frame)>;
 }
 
 /// One answer a query.

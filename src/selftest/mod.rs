@@ -5,11 +5,14 @@
 //! tests and by `snellius selftest`. A planted fault must push at least one figure of its case over the bound
 //! (tests/selftest).
 
+mod agreement;
+mod arithmetic;
 mod case;
 mod cases;
 mod cpu;
 mod device;
 mod gpu;
+pub mod lockstep;
 mod paper;
 mod paths;
 mod props;
@@ -18,6 +21,8 @@ mod rays;
 pub mod solids;
 mod stage;
 
+pub use agreement::{Agreement, LEAST_EQUAL_F64, LEAST_EQUAL_FAST, greatest_difference};
+pub use arithmetic::{Arithmetic, Operation, Rewrite};
 pub use case::{Bound, Case, Effort, Finding, Verdict};
 pub use cases::CASES;
 pub use cpu::CpuDevice;

@@ -22,6 +22,7 @@ pub(super) fn bend<R: Real>(world: &World, ray: &Bend) -> Bent {
         depth: 0,
         weight: Vec3::one(),
         kind: RAY_PRIMARY,
+        origin_face: NONE,
     };
     let mut ids = [NONE; BEND_LIMIT as usize];
     // One surface after the other.
@@ -47,6 +48,7 @@ pub(super) fn bend<R: Real>(world: &World, ray: &Bend) -> Bent {
             end = Ending::Absorbed;
             break;
         }
+        branch.origin_face = landing.surface.id;
         if children.reflects && ((ray.reflect & bit) != 0 || !children.transmits) {
             reflected |= bit;
             branch.origin = spawn_before(&landing.surface);

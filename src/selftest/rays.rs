@@ -12,6 +12,7 @@ use crate::layout::constants::NONE;
 /// A straight ray from face to face: where it goes, and what it met.
 pub(super) fn walk<R: Real>(world: &World, query: &Walk) -> Walked {
     let mut origin = Vec3::<R>::load(query.origin);
+    let mut origin_face = NONE;
     let direction = Vec3::load(query.direction);
     let mut walked = Walked {
         escape: Escape::Limit,
@@ -24,7 +25,7 @@ pub(super) fn walk<R: Real>(world: &World, query: &Walk) -> Walked {
         point: [0.0; 3],
     };
     while walked.faces < query.limit {
-        let ray = make_ray(world, origin, direction);
+        let ray = make_ray(world, origin, direction, origin_face);
         let hit = intersect(world, &ray, far());
         if hit.id == NONE {
             walked.escape = Escape::Free;
@@ -43,6 +44,7 @@ pub(super) fn walk<R: Real>(world: &World, query: &Walk) -> Walked {
         }
         walked.media = cross_face(world, walked.media, hit.id, hit.front);
         origin = spawn_behind(&surface);
+        origin_face = hit.id;
     }
     walked
 }
@@ -53,10 +55,10 @@ pub(super) fn leave<R: Real>(world: &World, index: u32, query: &Leave) -> Left {
     let arriving = Vec3::<R>::load(query.arriving);
     let outward = Vec3::load(world.scene.attributes[query.id as usize].normal);
     let front = dot3(outward, arriving) < R::ZERO;
-    let ray = make_ray(world, Vec3::zero(), arriving);
+    let ray = make_ray(world, Vec3::zero(), arriving, NONE);
     let surface = resolve(world, &ray, &Hit { t: R::ZERO, id: query.id, index, b1, b2, front });
     let origin = if query.behind { spawn_behind(&surface) } else { spawn_before(&surface) };
-    let hit = intersect(world, &make_ray(world, origin, Vec3::load(query.leaving)), far());
+    let hit = intersect(world, &make_ray(world, origin, Vec3::load(query.leaving), query.id), far());
     Left { origin: store(origin), met: hit.id, distance: hit.t.to_f32() }
 }
 

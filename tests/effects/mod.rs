@@ -2,4 +2,13 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod assembly;
 pub(crate) mod covering;
+mod equality;
+mod forced;
+mod headers;
+mod meeting;
+mod neutral;
+mod random;
+mod recorded;
+mod subject;

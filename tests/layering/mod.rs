@@ -15,6 +15,9 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("cpu", &["kernel", "layout", "film"]),
     ("gpu", &["layout", "film"]),
     ("bench", &["flatten", "cpu", "gpu", "film", "layout", "scene"]),
+    ("plot", &[]),
+    ("study", &["flatten", "cpu", "gpu", "film", "layout", "scene", "plot"]),
+    ("trace", &["kernel", "gpu", "flatten", "film", "layout", "scene", "plot"]),
     ("selftest", &["kernel", "bvh", "layout", "film", "scene", "flatten", "cpu", "gpu"]),
 ];
 

@@ -27,7 +27,7 @@ pub(crate) fn on_each(test: impl Fn(&GpuOptions)) {
 pub(crate) fn find(part: &str) -> Option<GpuOptions> {
     show_swiftshader();
     if adapters().iter().any(|adapter| adapter.name.to_lowercase().contains(part)) {
-        return Some(GpuOptions { adapter: Some(part.to_owned()) });
+        return Some(GpuOptions { adapter: Some(part.to_owned()), ..GpuOptions::default() });
     }
     assert!(std::env::var("CI").as_deref() != Ok("true"), "no adapter {part}: CI installs one, see .ci/run");
     eprintln!("skipped on {part}: no such adapter on this machine");

@@ -6,7 +6,8 @@ use bytemuck::Zeroable;
 use naga::{ArraySize, Module, Scalar, ScalarKind, StructMember, Type, TypeInner, VectorSize};
 use snellius::gpu::{SOURCES, Source, assemble};
 use snellius::layout::{
-    Aov, Attribute, Corner, FilmHead, Light, Material, Node, Statistics, Texel, Tile, Triangle, View,
+    Aov, Attribute, Corner, FilmHead, Light, Material, Node, Statistics, Texel, Tile, TreeNode, Triangle,
+    View,
 };
 
 use super::planted::Planted;
@@ -143,6 +144,31 @@ fn rust_records() -> Vec<Record> {
         record!(
             "FilmHead",
             FilmHead { tile, done, paused, cut_short, primary, reflection, refraction, shadow, listed }
+        ),
+        record!(
+            "TreeNode",
+            TreeNode {
+                origin,
+                kind,
+                direction,
+                depth,
+                weight,
+                end,
+                light,
+                media,
+                point,
+                id,
+                normal,
+                body,
+                arriving,
+                media_behind,
+                distance,
+                front,
+                children,
+                seen,
+                shadow_rays,
+                reserved,
+            }
         ),
         film_texel,
         frame,

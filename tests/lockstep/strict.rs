@@ -15,6 +15,7 @@ pub(super) const PLAIN: Variant = Variant {
     lights: Lights::Many,
     stack_size: 1,
     bvh_stack: 1,
+    tree: false,
 };
 
 /// a·b + a·c, which every compiler would rather compute as a·(b + c).

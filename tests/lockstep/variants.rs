@@ -6,7 +6,7 @@ use snellius::layout::{EffectSet, Float, Intersector, Lights, Precision};
 use crate::effects::covering::covering;
 
 /// Variants in which any two effects are on and off in every combination that there is, first the general one; with
-/// each precision, intersector, number of lights, and with small and large stacks.
+/// each precision, intersector, number of lights, and with small and large stacks. The general one records its tree.
 pub(super) fn all() -> Vec<Variant> {
     let sets = [EffectSet::ALL, EffectSet::NONE].into_iter().chain(covering(EffectSet::NONE));
     let mut variants = Vec::new();
@@ -23,6 +23,7 @@ pub(super) fn all() -> Vec<Variant> {
                 lights: lights[index / 2 % 3],
                 stack_size: sizes[index % 3].0,
                 bvh_stack: sizes[index % 3].1,
+                tree: effects == EffectSet::ALL,
             });
         }
     }

@@ -41,6 +41,21 @@ const FAULTS: &[Fault] = &[
         ),
     },
     Fault {
+        case: "T3",
+        what: "boxes without padding",
+        change: ("bvh", "origin + delta, origin - delta,", "origin, origin,"),
+    },
+    Fault {
+        case: "T4",
+        what: "a face that may be met again",
+        change: ("bvh", "if tri.id == ray.origin_face {", "if false {"),
+    },
+    Fault {
+        case: "T5",
+        what: "a fixed epsilon",
+        change: ("surface", "reach * (SPAWN_ROUNDOFFS * ROUNDOFF)", "real(1e-4)"),
+    },
+    Fault {
         case: "T6",
         what: "total reflection by sin²θt ≥ 1",
         change: ("material", "if g2 <= 0.0 {", "if (1.0 - c * c) / (eta * eta) >= 1.0 {"),
@@ -73,18 +88,38 @@ const FAULTS: &[Fault] = &[
     },
     Fault {
         case: "T13",
-        what: "media that are toggled, not set and cleared",
-        change: ("media", "select(mask & ~bit, mask | bit, inside)", "mask ^ bit"),
+        what: "media that are toggled on the way out, not cleared",
+        change: ("media", "let others = mask & ~bit;", "let others = mask ^ bit;"),
     },
     Fault {
         case: "T13",
         what: "points that may lie on edges",
-        change: ("surface", "EDGE_OFFSETS * offset", "0.0 * offset"),
+        change: ("surface", "(EDGE_ROUNDOFFS * ROUNDOFF)", "0.0"),
+    },
+    Fault {
+        case: "T14",
+        what: "ties that go to the highest id",
+        change: ("bvh", "tri.id < best.id", "tri.id > best.id"),
+    },
+    Fault {
+        case: "T15",
+        what: "the weight of a corner forgotten",
+        change: ("surface", "let b0 = 1.0 - hit.b1 - hit.b2;", "let b0 = 1.0 - hit.b1;"),
     },
     Fault {
         case: "T16",
         what: "a fixed epsilon",
         change: ("surface", "reach * (SPAWN_ROUNDOFFS * ROUNDOFF)", "real(1e-4)"),
+    },
+    Fault {
+        case: "T17",
+        what: "weights that do not quite add up to one",
+        change: ("surface", "let b0 = 1.0 - hit.b1 - hit.b2;", "let b0 = 1.000002 - hit.b1 - hit.b2;"),
+    },
+    Fault {
+        case: "T18",
+        what: "rays that enter boxes with a NaN",
+        change: ("bvh", "if !is_usable(ray) {", "if false {"),
     },
     Fault {
         case: "T19",
@@ -95,6 +130,25 @@ const FAULTS: &[Fault] = &[
         case: "T19",
         what: "shadow rays from the flat face",
         change: ("surface", "if height < 0.0 {", "if height < -1e30 {"),
+    },
+    Fault {
+        case: "T20",
+        what: "a mirror that is off by an ULP",
+        change: (
+            "material",
+            "let mirrored = direction + n * (c + c);",
+            "let mirrored = direction + n * (c + c) * 1.0000001;",
+        ),
+    },
+    Fault {
+        case: "T21",
+        what: "a rest that forgets the waiting rays",
+        change: ("whitted", "film.lanes[lane].stack_size = stack_size;", "film.lanes[lane].stack_size = 0u;"),
+    },
+    Fault {
+        case: "T22",
+        what: "rays that are cut without account",
+        change: ("whitted", "sample.dropped = sample.dropped + weight;", ""),
     },
     Fault {
         case: "C1",
@@ -110,7 +164,11 @@ const FAULTS: &[Fault] = &[
     Fault {
         case: "C4",
         what: "interfaces that transmit what they reflect as well",
-        change: ("material", "kt * (1.0 - f.reflectance);\n    } else", "kt;\n    } else"),
+        change: (
+            "material",
+            "result.transmission = kt * (1.0 - f.reflectance);",
+            "result.transmission = kt;",
+        ),
     },
     Fault {
         case: "C5",
@@ -144,8 +202,8 @@ const FAULTS: &[Fault] = &[
     },
     Fault {
         case: "C11",
-        what: "a mirror that is off by a ten-thousandth",
-        change: ("material", "n * (c + c)", "n * (c + c * 1.0001)"),
+        what: "a mirror that is turned by a ten-thousandth",
+        change: ("material", "n * (c + c)", "(n + vec3r(1e-4, 0.0, 0.0)) * (c + c)"),
     },
     Fault {
         case: "C12",
@@ -156,6 +214,11 @@ const FAULTS: &[Fault] = &[
         case: "C13",
         what: "a cut-off that cuts what is just bright enough",
         change: ("whitted", "max3(branch.weight) >= real", "max3(branch.weight) > real"),
+    },
+    Fault {
+        case: "S1",
+        what: "a number that is off by one ULP",
+        change: ("material", "let k = (c * sum - 1.0)", "let k = (c * sum - 1.0000001)"),
     },
 ];
 

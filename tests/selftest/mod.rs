@@ -48,19 +48,20 @@ fn every_case_holds_on_each_adapter() {
 #[test]
 fn the_textbooks_triangle_test_leaks() {
     let t1 = CASES.iter().find(|case| case.id == "T1").unwrap();
-    for precision in [Precision::F32, Precision::F64] {
-        assert!(!fallen(t1, &mut CpuDevice::new(precision, Intersector::MollerTrumbore)).unwrap().is_empty());
-    }
+    assert!(
+        !fallen(t1, &mut CpuDevice::new(Precision::F32, Intersector::MollerTrumbore)).unwrap().is_empty()
+    );
 }
 
 #[test]
 fn cases_are_numbered_in_order_and_fit_a_table() {
-    // The hard cases, then the closed forms.
-    let number = |case: &Case| (case.id.starts_with('C'), case.id[1..].parse::<u32>().unwrap());
+    // The hard cases, then the closed forms, then what strict float changes.
+    let family = |case: &Case| ["T", "C", "S"].iter().position(|letter| case.id.starts_with(letter)).unwrap();
+    let number = |case: &Case| (family(case), case.id[1..].parse::<u32>().unwrap());
     let numbers: Vec<_> = CASES.iter().map(number).collect();
     assert!(numbers.is_sorted_by(|a, b| a < b), "{numbers:?}");
     for case in CASES {
-        assert!(case.id.starts_with(['T', 'C']) && case.title.chars().count() <= 32, "{}", case.title);
+        assert!(case.title.chars().count() <= 32, "{}", case.title);
         assert!(!case.claim.ends_with('.'), "{}: the program ends the sentence", case.id);
     }
 }

@@ -1,6 +1,7 @@
 //! What `snellius render` is to do, once its flags are checked against each other.
 
 use std::path::PathBuf;
+use std::time::Duration;
 
 use super::super::CliError;
 use super::super::device::Choice;
@@ -10,6 +11,7 @@ use super::export::PngOptions;
 use crate::film::{AovKind, Development, Format, Output};
 use crate::layout::{EffectChoice, Float, Intersector, Precision, Settings};
 use crate::scene::RenderDefaults;
+use crate::study::Goal;
 
 /// What `render` is to do, as far as the flags tell; the scene settles the rest.
 pub(super) struct RenderConfig {
@@ -26,6 +28,8 @@ pub(super) struct RenderConfig {
     pub(super) adaptive: Option<f64>,
     pub(super) effects: EffectChoice,
     pub(super) intersector: Intersector,
+    /// What depth, cut-off and precision are to be chosen for.
+    pub(super) goal: Option<Goal>,
     pub(super) crop: Option<Crop>,
     pub(super) png: PngOptions,
     pub(super) json: bool,
@@ -40,6 +44,9 @@ impl RenderConfig {
         let png = PngOptions { development, bits: args.bits };
         check_outputs(output.iter().chain(aovs.iter().map(|(_, output)| output)), args.json)?;
         check_png_options(output.as_ref(), png)?;
+        let metric = args.metric.into();
+        let goal = args.error.map(|limit| Goal::Error { limit, metric });
+        let goal = goal.or_else(|| args.time.map(|ms| Goal::Time(Duration::from_secs_f64(ms / 1e3))));
         Ok(Self {
             scene: args.scene,
             output,
@@ -54,6 +61,7 @@ impl RenderConfig {
             adaptive: args.adaptive,
             effects: args.effects,
             intersector: args.arithmetic.intersector,
+            goal,
             crop: args.crop,
             png,
             json: args.json,

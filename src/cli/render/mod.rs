@@ -3,7 +3,7 @@
 mod args;
 mod config;
 mod export;
-mod progress;
+mod goal;
 mod report;
 
 use std::time::{Duration, Instant};
@@ -11,6 +11,7 @@ use std::time::{Duration, Instant};
 use super::console::{Console, print_json};
 use super::device::Device;
 use super::prepare::Prepared;
+use super::progress::RenderProgress;
 use super::values::{Size, name_of};
 use super::{CliError, Outcome};
 use crate::film::{Frame, Metadata, Renderer, Summary};
@@ -18,9 +19,8 @@ use crate::flatten;
 use crate::layout::constants::BASE_SAMPLES;
 use crate::layout::{EffectSet, Effects, Settings};
 use crate::scene::{Diagnostic, RenderDefaults};
-pub(super) use args::RenderArgs;
+pub(super) use args::{ArithmeticArgs, RenderArgs};
 use config::RenderConfig;
-use progress::RenderProgress;
 use report::{RenderReport, Times};
 
 pub(super) fn run(args: RenderArgs, console: Console) -> Result<Outcome, CliError> {
@@ -29,14 +29,23 @@ pub(super) fn run(args: RenderArgs, console: Console) -> Result<Outcome, CliErro
     let prepared = Prepared::new(&config.scene)?;
     prepared.warnings().for_each(|warning| console.warn_of(warning));
     let (scene, flat) = (&prepared.scene, &prepared.flat.scene);
-    let render = config.overridden(&scene.render);
-    let settings = config.settings(&render);
+    let mut render = config.overridden(&scene.render);
+    let mut settings = config.settings(&render);
     let crop = config.crop(render.size)?;
-    let view = flatten::view(&scene.camera, flat, render.size, crop, &settings);
     let effects = Effects::of(flat, &settings);
     let simulated = effects.plan(&settings).effects;
     warn_of_lacking(&effects, simulated, console);
     let mut device = config.device.clone().settle(config.precision, console).open(flat)?;
+    let chosen = match config.goal {
+        None => None,
+        Some(goal) => {
+            let chosen = goal::choose(goal, &mut device, &prepared, render.size, settings, console)?;
+            settings = chosen.settings;
+            (render.depth, render.cutoff) = (settings.depth, f64::from(settings.cutoff));
+            Some(chosen)
+        }
+    };
+    let view = flatten::view(&scene.camera, flat, render.size, crop, &settings);
     let frame = {
         let progress = RenderProgress::start(config.progress, console);
         device.render(&view, &settings, &progress)?
@@ -56,6 +65,12 @@ pub(super) fn run(args: RenderArgs, console: Console) -> Result<Outcome, CliErro
         print_json(&job.report(times))?;
     }
     job.summarise(times, console);
+    if let Some(chosen) = &chosen {
+        console.note(goal::guarantee(&frame));
+        if !chosen.meets {
+            return Ok(Outcome::Failed);
+        }
+    }
     Ok(if frame.complete { Outcome::Done } else { Outcome::Interrupted })
 }
 

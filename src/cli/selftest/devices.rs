@@ -1,6 +1,7 @@
 //! Which devices are put to the test.
 
 use super::SelftestArgs;
+use super::arithmetic::{self, Measured};
 use crate::cli::CliError;
 use crate::gpu::{GpuError, GpuOptions, SOURCES, adapters};
 use crate::layout::{Backend, Precision};
@@ -11,12 +12,14 @@ pub(super) struct Devices {
     pub(super) list: Vec<Box<dyn Device>>,
     /// Name, driver and its version of each adapter.
     pub(super) drivers: Vec<[String; 2]>,
+    /// What each adapter makes of f32.
+    pub(super) arithmetic: Vec<Measured>,
 }
 
 impl Devices {
     /// Open what the flags leave: both precisions of the CPU unless an adapter is named, then each adapter.
     pub(super) fn open(args: &SelftestArgs) -> Result<Self, CliError> {
-        let mut devices = Self { list: Vec::new(), drivers: Vec::new() };
+        let mut devices = Self { list: Vec::new(), drivers: Vec::new(), arithmetic: Vec::new() };
         let cpu = args.backend.map_or(args.adapter.is_none(), |backend| backend == Backend::Cpu);
         if cpu {
             for precision in [Precision::F32, Precision::F64] {
@@ -44,11 +47,13 @@ impl Devices {
             return Err(GpuError::NoAdapter { wanted, found }.into());
         }
         for name in names {
-            let options = GpuOptions { adapter: Some(name) };
-            let device = GpuDevice::new(&options, args.float.unwrap_or_default(), args.intersector, SOURCES)?;
+            let options = GpuOptions { adapter: Some(name), ..GpuOptions::default() };
+            let mut device =
+                GpuDevice::new(&options, args.float.unwrap_or_default(), args.intersector, SOURCES)?;
             let adapter = device.adapter();
             let driver = format!("{} {}", adapter.driver, adapter.driver_info).trim().to_owned();
             self.drivers.push([adapter.name.clone(), driver]);
+            self.arithmetic.extend(arithmetic::measure(&mut device)?);
             self.list.push(Box::new(device));
         }
         Ok(())

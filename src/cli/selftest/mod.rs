@@ -1,5 +1,6 @@
 //! `snellius selftest`: the hard cases on this machine's devices.
 
+mod arithmetic;
 mod devices;
 mod markdown;
 mod progress;

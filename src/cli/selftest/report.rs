@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use serde::Serialize;
 
+use super::arithmetic::Measured;
 use super::devices::Devices;
 use crate::cli::values::name_of;
 use crate::layout::Intersector;
@@ -19,6 +20,7 @@ pub(super) struct Report {
     pub(super) devices: Vec<String>,
     /// Name and driver of each adapter.
     pub(super) adapters: Vec<[String; 2]>,
+    pub(super) arithmetic: Vec<Measured>,
     pub(super) cases: Vec<CaseReport>,
 }
 
@@ -72,6 +74,7 @@ impl Report {
             intersector: name_of(intersector),
             devices: devices.list.iter().map(|device| device.name().to_owned()).collect(),
             adapters: devices.drivers.clone(),
+            arithmetic: devices.arithmetic.clone(),
             cases: Vec::new(),
         }
     }

@@ -1,37 +1,41 @@
 //! What the cases found, as a person reads it.
 
+use super::arithmetic;
 use super::report::{CaseResult, Figure, Limit, Report};
 
 /// Characters in a line.
 const WIDTH: usize = 100;
 /// Characters of a device's column, at least.
-const COLUMN: usize = 20;
+const COLUMN: usize = 19;
 
-/// A table case × device, in parts where it is too wide; then what is beyond its bound, or if `verbose` everything.
+/// The adapters' arithmetic; a table case × device; then what is beyond its bound, or if `verbose` everything.
 pub(super) fn tables(report: &Report, verbose: bool) -> String {
-    let label =
-        report.cases.iter().map(|case| label(case.case, case.title).chars().count()).max().unwrap_or(0) + 2;
-    let columns = (WIDTH.saturating_sub(label) / COLUMN).max(1);
+    let rows: Vec<_> = report
+        .cases
+        .iter()
+        .map(|case| (format!("{:<4}{}", case.case, case.title), case.results.iter().map(cell).collect()))
+        .collect();
+    arithmetic::table(&report.arithmetic) + &columns(&report.devices, &rows) + &figures(report, verbose)
+}
+
+/// A table of labelled rows under these heads, in parts where it is too wide.
+pub(super) fn columns(heads: &[String], rows: &[(String, Vec<String>)]) -> String {
+    let label = rows.iter().map(|(label, _)| label.chars().count()).max().unwrap_or(0) + 2;
+    let fitting = (WIDTH.saturating_sub(label) / COLUMN).max(1);
     let mut text = String::new();
-    for first in (0..report.devices.len()).step_by(columns) {
-        let end = report.devices.len().min(first + columns);
-        text += &line(&" ".repeat(label), report.devices[first..end].iter().map(String::as_str));
-        for case in &report.cases {
-            let cells: Vec<_> = case.results[first..end].iter().map(cell).collect();
-            let label = format!("{:label$}", self::label(case.case, case.title));
-            text += &line(&label, cells.iter().map(String::as_str));
+    for first in (0..heads.len()).step_by(fitting) {
+        let end = heads.len().min(first + fitting);
+        text += &line(&" ".repeat(label), &heads[first..end]);
+        for (name, cells) in rows {
+            text += &line(&format!("{name:label$}"), &cells[first..end]);
         }
         text.push('\n');
     }
-    text + &figures(report, verbose)
+    text
 }
 
-fn label(case: &str, title: &str) -> String {
-    format!("{case:<4}{title}")
-}
-
-fn line<'a>(label: &str, cells: impl Iterator<Item = &'a str>) -> String {
-    let cells: String = cells.map(|cell| format!("{cell:<COLUMN$}")).collect();
+fn line(label: &str, cells: &[String]) -> String {
+    let cells: String = cells.iter().map(|cell| format!("{cell:<COLUMN$}")).collect();
     format!("{}\n", format!("{label}{cells}").trim_end())
 }
 

@@ -26,6 +26,18 @@ impl EffectSet {
         set
     }
 
+    /// The set of these bits.
+    #[must_use]
+    pub const fn from_bits(bits: u32) -> Self {
+        Self(bits & Self::ALL.0)
+    }
+
+    /// A bit for each effect.
+    #[must_use]
+    pub const fn bits(self) -> u32 {
+        self.0
+    }
+
     /// Whether an effect is in the set.
     #[must_use]
     pub const fn has(self, effect: Effect) -> bool {

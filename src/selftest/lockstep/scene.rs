@@ -1,16 +1,16 @@
 //! Functions that look at the scene. Twin of shaders/probe_scene.wgsl.
 
-use snellius::kernel::background::background;
-use snellius::kernel::bvh::{far, intersect, make_ray, occluded, slabs};
-use snellius::kernel::camera::primary_ray;
-use snellius::kernel::light::{direct, transmittance};
-use snellius::kernel::material::{scatter, shadow_transmission};
-use snellius::kernel::math::length3;
-use snellius::kernel::media::{attenuation, cross_face, current_medium};
-use snellius::kernel::surface::{Surface, resolve, spawn_before, spawn_behind};
-use snellius::kernel::texture::texture_color;
-use snellius::kernel::{Vec3, World};
-use snellius::layout::constants::NONE;
+use crate::kernel::background::background;
+use crate::kernel::bvh::{far, intersect, make_ray, occluded, slabs};
+use crate::kernel::camera::primary_ray;
+use crate::kernel::light::{direct, transmittance};
+use crate::kernel::material::{scatter, shadow_transmission};
+use crate::kernel::math::length3;
+use crate::kernel::media::{attenuation, cross_face, current_medium};
+use crate::kernel::surface::{Surface, resolve, spawn_before, spawn_behind};
+use crate::kernel::texture::texture_color;
+use crate::kernel::{Vec3, World};
+use crate::layout::constants::NONE;
 
 use super::Probe;
 use super::inputs::Input::{Direction, Number, Point, Positive, Word};
@@ -33,7 +33,7 @@ pub(super) const PROBES: &[Probe] = &[
         outputs: 9,
         run: |world, io| {
             let (origin, direction) = (io.take3(), io.take3());
-            let ray = make_ray(world, origin, direction);
+            let ray = make_ray(world, origin, direction, NONE);
             io.put3(ray.reciprocal);
             io.put3(ray.origin_hi);
             io.put3(ray.origin_lo);
@@ -46,18 +46,18 @@ pub(super) const PROBES: &[Probe] = &[
         run: |world, io| {
             let (origin, direction) = (io.take3(), io.take3());
             let lo = io.take3();
-            let span = slabs(&make_ray(world, origin, direction), lo, lo + io.take3().abs());
+            let span = slabs(&make_ray(world, origin, direction, NONE), lo, lo + io.take3().abs());
             io.put(span.entry);
             io.put(span.exit);
         },
     },
     Probe {
         name: "intersect",
-        inputs: &[Point, Direction],
+        inputs: &[Point, Direction, Word(TRIANGLES)],
         outputs: 5,
         run: |world, io| {
             let (origin, direction) = (io.take3(), io.take3());
-            let hit = intersect(world, &make_ray(world, origin, direction), far());
+            let hit = intersect(world, &make_ray(world, origin, direction, io.take_word()), far());
             io.put_word(hit.id);
             io.put(hit.t);
             io.put(hit.b1);
@@ -67,12 +67,13 @@ pub(super) const PROBES: &[Probe] = &[
     },
     Probe {
         name: "occluded",
-        inputs: &[Point, Direction, Positive],
+        inputs: &[Point, Direction, Positive, Word(TRIANGLES)],
         outputs: 1,
         run: |world, io| {
             let (origin, direction) = (io.take3(), io.take3());
             let limit = io.take();
-            io.put_flag(occluded(world, &make_ray(world, origin, direction), limit));
+            let ray = make_ray(world, origin, direction, io.take_word());
+            io.put_flag(occluded(world, &ray, limit));
         },
     },
     Probe {
@@ -150,7 +151,7 @@ pub(super) const PROBES: &[Probe] = &[
             let distance = length3(path);
             let l = Vec3::new(path.x / distance, path.y / distance, path.z / distance);
             let media = io.take_word();
-            io.put3(transmittance(world, origin, l, distance, light, media));
+            io.put3(transmittance(world, origin, l, distance, light, NONE, media));
         },
     },
     Probe {
@@ -206,7 +207,7 @@ pub(super) const PROBES: &[Probe] = &[
 /// Where a ray goes, and the surface that it meets.
 fn take_meeting(world: &World, io: &mut Record) -> (Vec3<f32>, Option<Surface<f32>>) {
     let (origin, direction) = (io.take3(), io.take3());
-    let ray = make_ray(world, origin, direction);
+    let ray = make_ray(world, origin, direction, NONE);
     let hit = intersect(world, &ray, far());
     (direction, (hit.id != NONE).then(|| resolve(world, &ray, &hit)))
 }

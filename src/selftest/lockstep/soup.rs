@@ -1,9 +1,9 @@
 //! A scene that calls for everything at once: random triangles of all materials, smooth and flat, textured, in
 //! overlapping bodies, under a background picture. It looks like nothing.
 
+use crate::layout::constants::{NONE, OPPOSITE};
+use crate::layout::{Attribute, Corner, FlatScene, FlatTexture, Light, Material, Node, Triangle, View};
 use bytemuck::Zeroable;
-use snellius::layout::constants::{NONE, OPPOSITE};
-use snellius::layout::{Attribute, Corner, FlatScene, FlatTexture, Light, Material, Node, Triangle, View};
 
 use super::inputs::{Generator, Input};
 
@@ -105,9 +105,10 @@ fn add_node(nodes: &mut Vec<Node>, triangles: &[Triangle], first: u32, count: u3
 
 fn bounds(triangles: &[Triangle]) -> ([f32; 3], [f32; 3]) {
     let corners = || triangles.iter().flat_map(|triangle| [triangle.v0, triangle.v1, triangle.v2]);
-    let axis =
-        |axis: usize, pick: fn(f32, f32) -> f32| corners().map(|corner| corner[axis]).reduce(pick).unwrap();
-    ([0, 1, 2].map(|a| axis(a, f32::min)), [0, 1, 2].map(|a| axis(a, f32::max)))
+    let reach = |start: f32, pick: fn(f32, f32) -> f32| {
+        corners().fold([start; 3], |reached, corner| [0, 1, 2].map(|axis| pick(reached[axis], corner[axis])))
+    };
+    (reach(f32::MAX, f32::min), reach(f32::MIN, f32::max))
 }
 
 fn triangle(random: &mut Generator, id: u32) -> Triangle {

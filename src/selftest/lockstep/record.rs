@@ -1,6 +1,6 @@
 //! A record of words, read and written one after the other. Twin of shaders/probe.wgsl.
 
-use snellius::kernel::Vec3;
+use crate::kernel::Vec3;
 
 pub(super) struct Record {
     inputs: Vec<u32>,

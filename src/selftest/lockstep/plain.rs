@@ -1,18 +1,18 @@
 //! Functions of numbers alone. Twin of shaders/probe_plain.wgsl.
 
+use crate::kernel::Vec3;
+use crate::kernel::adaptive::{Surroundings, display, round_end, tally, variance, wants_more};
+use crate::kernel::bvh::safe_reciprocal;
+use crate::kernel::film::flush;
+use crate::kernel::hash::{mix_hash, sample_offset};
+use crate::kernel::light::phong;
+use crate::kernel::material::fresnel;
+use crate::kernel::math::{Transcendental, cross3, dot3, length3, max3, unit3};
+use crate::kernel::surface::{lift, turn_towards};
+use crate::kernel::texture::{blend, wrap};
+use crate::kernel::triangle::{Crossing, moller_trumbore, shear_of, watertight};
+use crate::layout::{Statistics, Tile, Triangle};
 use bytemuck::Zeroable;
-use snellius::kernel::Vec3;
-use snellius::kernel::adaptive::{Surroundings, display, round_end, tally, variance, wants_more};
-use snellius::kernel::bvh::safe_reciprocal;
-use snellius::kernel::film::flush;
-use snellius::kernel::hash::{mix_hash, sample_offset};
-use snellius::kernel::light::phong;
-use snellius::kernel::material::fresnel;
-use snellius::kernel::math::{Transcendental, cross3, dot3, length3, max3, unit3};
-use snellius::kernel::surface::{lift, turn_towards};
-use snellius::kernel::texture::{blend, wrap};
-use snellius::kernel::triangle::{Crossing, moller_trumbore, shear_of, watertight};
-use snellius::layout::{Statistics, Tile, Triangle};
 
 use super::Probe;
 use super::inputs::Input::{self, Bits, Direction, Fraction, Number, Point, Positive, Word};

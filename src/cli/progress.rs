@@ -7,10 +7,11 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle as BarStyle};
 
-use super::super::console::Console;
-use super::super::error::Outcome;
-use super::super::values::ProgressStyle;
+use super::console::Console;
+use super::error::Outcome;
+use super::values::ProgressStyle;
 use crate::film::Progress;
+use crate::study::Watch;
 
 /// Plain lines are at least this far apart.
 const LINE_INTERVAL: Duration = Duration::from_secs(1);
@@ -66,6 +67,46 @@ impl Progress for RenderProgress {
     }
 }
 
+/// Shows how far a study is and what it does, and stops it after Ctrl-C.
+pub(super) struct StudyProgress(RenderProgress);
+
+impl StudyProgress {
+    /// As [`RenderProgress::start`].
+    pub(super) fn start(style: ProgressStyle, console: Console) -> Self {
+        Self(RenderProgress::start(style, console))
+    }
+}
+
+/// Parts of a study's time that a bar shows.
+const STUDY_PARTS: f64 = 1000.0;
+
+impl Watch for StudyProgress {
+    fn stage(&self, words: &str, share: f64) {
+        match &self.0.display {
+            Display::Bar(bar) => {
+                bar.set_length(STUDY_PARTS as u64);
+                bar.set_position((share * STUDY_PARTS) as u64);
+                bar.set_message(words.to_owned());
+            }
+            Display::Plain { started, last } => {
+                *last.lock().unwrap_or_else(PoisonError::into_inner) = started.elapsed();
+                self.0.console.note(format!("{:3.0} %  {words}", share * 100.0));
+            }
+            Display::None => {}
+        }
+    }
+
+    fn tick(&self) {
+        if let Display::Bar(bar) = &self.0.display {
+            bar.tick();
+        }
+    }
+
+    fn is_interrupted(&self) -> bool {
+        self.0.interrupted.load(Ordering::Relaxed)
+    }
+}
+
 impl Drop for RenderProgress {
     fn drop(&mut self) {
         if let Display::Bar(bar) = &self.display {
@@ -75,7 +116,7 @@ impl Drop for RenderProgress {
 }
 
 fn bar() -> ProgressBar {
-    let style = BarStyle::with_template("{elapsed:>4} [{bar:40}] {percent:>3} %, {eta} left")
+    let style = BarStyle::with_template("{elapsed:>4} [{bar:40}] {percent:>3} %, {eta} left  {msg}")
         .unwrap_or_else(|_| BarStyle::default_bar())
         .progress_chars("=> ");
     ProgressBar::new(0).with_style(style)

@@ -1,0 +1,95 @@
+//! A special kernel gives the bits of the general one.
+
+use snellius::film::Frame;
+use snellius::layout::{EffectChoice, EffectSet, Float, Settings};
+
+use super::covering::{all_closed, covering};
+use super::subject::{Subject, assert_same, files};
+use crate::lockstep::devices::{find, on_each};
+
+/// A scene of `scenes/`, small.
+fn small(path: &std::path::Path) -> Subject {
+    let name = path.file_name().unwrap().to_str().unwrap();
+    Subject::file(name, [32, 24])
+}
+
+/// Sets that hold what a scene calls for.
+fn supersets(subject: &Subject, choose: fn(EffectSet) -> Vec<EffectSet>) -> Vec<EffectChoice> {
+    choose(subject.called_for()).into_iter().map(EffectChoice::Only).collect()
+}
+
+#[test]
+fn every_scene_has_the_same_bits_with_any_two_effects_more_on_the_cpu() {
+    for path in files() {
+        let subject = small(&path);
+        let general = subject.on_cpu(EffectChoice::All);
+        for choice in supersets(&subject, covering).into_iter().chain([EffectChoice::Auto]) {
+            assert_same(&subject.on_cpu(choice), &general, &format!("{}, {choice:?}", subject.name));
+        }
+    }
+}
+
+#[test]
+fn every_scene_has_the_bits_of_the_cpu_by_its_own_and_by_the_general_shader() {
+    for path in files() {
+        let subject = small(&path);
+        let cpu = subject.on_cpu(EffectChoice::Auto);
+        on_each(|options| {
+            let mut renderer = subject.renderer(options);
+            for choice in [EffectChoice::Auto, EffectChoice::All] {
+                let gpu = subject.on_gpu(&mut renderer, choice);
+                assert_eq!(gpu.float, Float::Strict);
+                assert_same(&gpu, &cpu, &format!("{} on {options:?}, {choice:?}", subject.name));
+            }
+        });
+    }
+}
+
+#[test]
+fn scenes_that_call_for_little_have_the_same_bits_with_any_two_effects_more_on_strict_adapters() {
+    for (name, size) in [("opaque.toml", [24, 18]), ("mirrors.toml", [16, 12]), ("prism.toml", [24, 18])] {
+        compare_on_adapters(&Subject::file(name, size), covering);
+    }
+}
+
+/// Hours. `cargo test --release --test main -- --ignored every_closed_set`
+#[test]
+#[ignore = "hours: every closed set of effects on every scene and adapter"]
+fn every_scene_has_the_same_bits_with_every_closed_set_that_holds_its_own() {
+    for path in files() {
+        let name = path.file_name().unwrap().to_str().unwrap();
+        compare_on_adapters(&Subject::file(name, [16, 12]), all_closed);
+    }
+}
+
+fn compare_on_adapters(subject: &Subject, choose: fn(EffectSet) -> Vec<EffectSet>) {
+    let cpu = subject.on_cpu(EffectChoice::All);
+    on_each(|options| {
+        for choice in supersets(subject, choose) {
+            // A new one each: pipelines are not to pile up.
+            let gpu = subject.on_gpu(&mut subject.renderer(options), choice);
+            assert_same(&gpu, &cpu, &format!("{} on {options:?}, {choice:?}", subject.name));
+        }
+    });
+}
+
+#[test]
+fn fast_shaders_take_the_same_paths_with_and_without_the_effects_that_are_not_called_for() {
+    find("llvmpipe").iter().for_each(|options| {
+        for path in files() {
+            let mut subject = small(&path);
+            subject.settings = Settings { float: Float::Fast, ..subject.settings };
+            let mut renderer = subject.renderer(options);
+            let special = subject.on_gpu(&mut renderer, EffectChoice::Auto);
+            let general = subject.on_gpu(&mut renderer, EffectChoice::All);
+            assert_eq!(special.float, Float::Fast);
+            let equal = share_of_equal_paths(&special, &general);
+            assert!(equal >= 0.9999, "{}: {equal}", subject.name);
+        }
+    });
+}
+
+fn share_of_equal_paths(a: &Frame, b: &Frame) -> f64 {
+    let equal = a.texels.iter().zip(&b.texels).filter(|(a, b)| a.primitive_hash == b.primitive_hash).count();
+    equal as f64 / a.texels.len() as f64
+}
