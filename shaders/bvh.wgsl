@@ -4,7 +4,9 @@ import package::real::{real, vec3r, least, greatest};
 import package::triangle::{Shear, shear_of, intersect_triangle};
 import package::records::Triangle;
 import package::bindings::{frame, nodes, triangles};
-import package::constants::{BVH_STACK, FAR, LEAST_DIRECTION, LOOP_STEPS, NODE_STEPS, NONE, SLAB_PADDING};
+import package::constants::{
+    BVH_STACK, FAR, LEAST_DIRECTION, LOOP_STEPS, NODE_STEPS, NONE, ORIGIN_PADDING, SLAB_PADDING,
+};
 
 // A ray, prepared for boxes and triangles.
 struct Ray {
@@ -13,6 +15,7 @@ struct Ray {
     reciprocal: vec3r,
     origin_hi: vec3r,
     origin_lo: vec3r,
+    origin_face: u32,
     shear: Shear,
 }
 
@@ -38,15 +41,15 @@ var<private> bvh_stack: array<u32, BVH_STACK>;
 // Passes through loops so far, those of the leaves' triangles too: an invocation rests when it has made enough.
 var<private> steps: u32;
 
-// Prepare a ray.
-fn make_ray(origin: vec3r, direction: vec3r) -> Ray {
+// Prepare a ray that leaves the face `origin_face`, or none.
+fn make_ray(origin: vec3r, direction: vec3r, origin_face: u32) -> Ray {
     let to_lo = abs(origin - vec3r(frame.view.scene_lo));
     let to_hi = abs(origin - vec3r(frame.view.scene_hi));
     let reach = greatest(to_lo.x, to_hi.x) + greatest(to_lo.y, to_hi.y) + greatest(to_lo.z, to_hi.z);
-    let delta = vec3r(reach * SLAB_PADDING);
+    let delta = abs(origin) * ORIGIN_PADDING + vec3r(reach * SLAB_PADDING);
     let reciprocal =
         vec3r(safe_reciprocal(direction.x), safe_reciprocal(direction.y), safe_reciprocal(direction.z));
-    return Ray(origin, direction, reciprocal, origin + delta, origin - delta, shear_of(direction));
+    return Ray(origin, direction, reciprocal, origin + delta, origin - delta, origin_face, shear_of(direction));
 }
 
 // 1/d, finite.
@@ -70,6 +73,9 @@ fn slabs(ray: Ray, lo: vec3r, hi: vec3r) -> Span {
 // The hit on one triangle if it is nearer than `best`, or as near with a lower id; else `best`.
 fn nearer(ray: Ray, index: u32, best: Hit) -> Hit {
     let tri = triangles[index];
+    if tri.id == ray.origin_face {
+        return best;
+    }
     let c = intersect_triangle(ray.origin, ray.direction, ray.shear, tri);
     if !c.found {
         return best;

@@ -2,7 +2,6 @@
 
 import package::real::{real, vec3r};
 import package::records::{Aov, Texel};
-import package::bindings::frame;
 import package::constants::LEAST_NORMAL;
 
 // What one sample gives the film.
@@ -15,9 +14,10 @@ struct Sample {
     primitive_hash: u32,
     body_hash: u32,
     @if(aovs) aov: Aov,
+    @if(adaptive) first_body: u32,
 }
 
-// Add sample `index` to a pixel's running sums; the last one divides them by the number of samples.
+// Add sample `index` to a pixel's running sums.
 fn add(before: Texel, sample: Sample, index: u32) -> Texel {
     var texel = before;
     texel.radiance = texel.radiance + flush3(sample.radiance);
@@ -28,16 +28,18 @@ fn add(before: Texel, sample: Sample, index: u32) -> Texel {
         texel.primitive_hash = sample.primitive_hash;
         texel.body_hash = sample.body_hash;
     }
-    @if(antialiasing) {
-        if frame.view.samples > 1u && index + 1u == frame.view.samples {
-            let n = f32(i32(frame.view.samples));
-            texel.radiance.x = flush(real(texel.radiance.x / n));
-            texel.radiance.y = flush(real(texel.radiance.y / n));
-            texel.radiance.z = flush(real(texel.radiance.z / n));
-            texel.dropped = flush(real(texel.dropped / n));
-            texel.bound = flush(real(texel.bound / n));
-        }
-    }
+    return texel;
+}
+
+// Divide a pixel's sums by its number of samples, once.
+fn settle(sums: Texel, samples: u32) -> Texel {
+    var texel = sums;
+    let n = f32(i32(samples));
+    texel.radiance.x = flush(real(texel.radiance.x / n));
+    texel.radiance.y = flush(real(texel.radiance.y / n));
+    texel.radiance.z = flush(real(texel.radiance.z / n));
+    texel.dropped = flush(real(texel.dropped / n));
+    texel.bound = flush(real(texel.bound / n));
     return texel;
 }
 

@@ -53,8 +53,11 @@ fn direct(surface: Surface, direction: vec3r, @if(tinted_shadows) media: u32) ->
             var t = vec3r(1.0);
             @if(shadows) {
                 result.shadow_rays++;
-                @if(tinted_shadows) t = transmittance(origin, l, distance, position, media);
-                @else t = transmittance(origin, l, distance, position);
+                // From above its plane a ray that goes up does not meet the face; one that goes down may.
+                let upwards = dot3(surface.face_normal, l) > 0.0;
+                let origin_face = select(NONE, surface.id, upwards);
+                @if(tinted_shadows) t = transmittance(origin, l, distance, position, origin_face, media);
+                @else t = transmittance(origin, l, distance, position, origin_face);
                 if max3(t) <= 0.0 {
                     continue;
                 }
@@ -90,17 +93,20 @@ fn phong(n: vec3r, l: vec3r, direction: vec3r, cosine: real, shininess: real, sp
 }
 
 // Tj: what comes straight, unrefracted, from a light to a point in the given media, per channel.
-fn transmittance(origin: vec3r, l: vec3r, distance: real, light: vec3r, @if(tinted_shadows) media: u32) -> vec3r {
+fn transmittance(
+    origin: vec3r, l: vec3r, distance: real, light: vec3r, origin_face: u32, @if(tinted_shadows) media: u32,
+) -> vec3r {
     // Where every body is opaque one blocker decides, whichever it is.
-    @if(!tinted_shadows) return select(vec3r(1.0), vec3r(0.0), occluded(make_ray(origin, l), distance));
+    @if(!tinted_shadows) return select(vec3r(1.0), vec3r(0.0), occluded(make_ray(origin, l, origin_face), distance));
     @if(tinted_shadows) {
         var result = vec3r(1.0);
         var mask = media;
         var start = origin;
+        var face = origin_face;
         var left = distance;
         for (var i = 0u; i < MAX_PASSES; i++) {
             steps += LOOP_STEPS;
-            let ray = make_ray(start, l);
+            let ray = make_ray(start, l, face);
             let hit = intersect(ray, left);
             let medium = current_medium(mask);
             if hit.id == NONE {
@@ -122,6 +128,7 @@ fn transmittance(origin: vec3r, l: vec3r, distance: real, light: vec3r, @if(tint
             }
             mask = next;
             start = spawn_behind(surface);
+            face = surface.id;
             left = length3(light - start);
         }
         return vec3r(0.0);

@@ -1,6 +1,8 @@
-// Entry points: functions of numbers alone, each over many inputs. Twins in tests/lockstep/probes/plain.rs.
+// Entry points: functions of numbers alone, each over many inputs. Twins in src/selftest/lockstep/plain.rs.
 
+import package::real::{real, vec3r};
 import package::probe::{begin, put, put3, put_flag, put_word, take, take3, take_word};
+import package::adaptive::{Surroundings, display, round_end, tally, variance, wants_more};
 import package::constants::PROBE_GROUP;
 import package::film::flush;
 import package::hash::{mix_hash, sample_offset};
@@ -8,7 +10,7 @@ import package::light::phong;
 import package::material::fresnel;
 import package::math::{arctangent, cross3, dot3, exp_neg, length3, max3, power, unit3};
 import package::bvh::safe_reciprocal;
-import package::records::Triangle;
+import package::records::{Statistics, Tile, Triangle};
 import package::surface::{lift, turn_towards};
 import package::texture::{blend, wrap};
 import package::triangle::{Crossing, moller_trumbore, shear_of, watertight};
@@ -206,5 +208,60 @@ fn probe_blend(@builtin(global_invocation_id) id: vec3u) {
         let d = take3();
         let fx = take();
         put3(blend(a, b, c, d, fx, take()));
+    }
+}
+
+fn take_statistics() -> Statistics {
+    let sum = vec3f(take3());
+    let squares = f32(take());
+    let samples = take_word();
+    return Statistics(sum, squares, samples, take_word(), 0u, 0u);
+}
+
+@compute @workgroup_size(PROBE_GROUP)
+fn probe_display(@builtin(global_invocation_id) id: vec3u) {
+    if begin(id.x) {
+        put3(vec3r(display(vec3f(take3()))));
+    }
+}
+
+@compute @workgroup_size(PROBE_GROUP)
+fn probe_tally(@builtin(global_invocation_id) id: vec3u) {
+    if begin(id.x) {
+        let before = take_statistics();
+        let radiance = vec3f(take3());
+        let after = tally(before, radiance, take_word());
+        put3(vec3r(after.sum));
+        put(real(after.squares));
+        put_word(after.samples);
+        put_word(after.body);
+    }
+}
+
+@compute @workgroup_size(PROBE_GROUP)
+fn probe_variance(@builtin(global_invocation_id) id: vec3u) {
+    if begin(id.x) {
+        put(real(variance(take_statistics())));
+    }
+}
+
+@compute @workgroup_size(PROBE_GROUP)
+fn probe_wants_more(@builtin(global_invocation_id) id: vec3u) {
+    if begin(id.x) {
+        let here = take_statistics();
+        let pooled = take_statistics();
+        let around = Surroundings(pooled, f32(take()));
+        var tile: Tile;
+        tile.round = take_word();
+        tile.threshold = f32(take());
+        put_flag(wants_more(here, around, tile, take_word()));
+    }
+}
+
+@compute @workgroup_size(PROBE_GROUP)
+fn probe_round_end(@builtin(global_invocation_id) id: vec3u) {
+    if begin(id.x) {
+        let start = take_word();
+        put_word(round_end(start, take_word()));
     }
 }

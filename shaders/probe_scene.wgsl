@@ -1,4 +1,4 @@
-// Entry points: functions that look at the scene, each over many inputs. Twins in tests/lockstep/probes/scene.rs.
+// Entry points: functions that look at the scene, each over many inputs. Twins in src/selftest/lockstep/scene.rs.
 
 import package::probe::{begin, put, put3, put_flag, put_word, take, take3, take_word};
 import package::real::{real, vec3r};
@@ -24,7 +24,7 @@ fn take_meeting() -> Meeting {
     var meeting: Meeting;
     let origin = take3();
     meeting.direction = take3();
-    let ray = make_ray(origin, meeting.direction);
+    let ray = make_ray(origin, meeting.direction, NONE);
     let hit = intersect(ray, far());
     meeting.found = hit.id != NONE;
     if meeting.found {
@@ -45,7 +45,7 @@ fn probe_primary_ray(@builtin(global_invocation_id) id: vec3u) {
 fn probe_make_ray(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let origin = take3();
-        let ray = make_ray(origin, take3());
+        let ray = make_ray(origin, take3(), NONE);
         put3(ray.reciprocal);
         put3(ray.origin_hi);
         put3(ray.origin_lo);
@@ -58,7 +58,7 @@ fn probe_slabs(@builtin(global_invocation_id) id: vec3u) {
         let origin = take3();
         let direction = take3();
         let lo = take3();
-        let span = slabs(make_ray(origin, direction), lo, lo + abs(take3()));
+        let span = slabs(make_ray(origin, direction, NONE), lo, lo + abs(take3()));
         put(span.entry);
         put(span.exit);
     }
@@ -68,7 +68,8 @@ fn probe_slabs(@builtin(global_invocation_id) id: vec3u) {
 fn probe_intersect(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let origin = take3();
-        let hit = intersect(make_ray(origin, take3()), far());
+        let direction = take3();
+        let hit = intersect(make_ray(origin, direction, take_word()), far());
         put_word(hit.id);
         put(hit.t);
         put(hit.b1);
@@ -82,7 +83,8 @@ fn probe_occluded(@builtin(global_invocation_id) id: vec3u) {
     if begin(id.x) {
         let origin = take3();
         let direction = take3();
-        put_flag(occluded(make_ray(origin, direction), take()));
+        let limit = take();
+        put_flag(occluded(make_ray(origin, direction, take_word()), limit));
     }
 }
 
@@ -158,7 +160,7 @@ fn probe_transmittance(@builtin(global_invocation_id) id: vec3u) {
         let path = light - origin;
         let distance = length3(path);
         let l = vec3r(path.x / distance, path.y / distance, path.z / distance);
-        put3(transmittance(origin, l, distance, light, take_word()));
+        put3(transmittance(origin, l, distance, light, NONE, take_word()));
     }
 }
 

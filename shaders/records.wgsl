@@ -51,6 +51,11 @@ struct Aov {
     body: u32, medium: u32, reserved: vec2u,
 }
 
+struct Statistics {
+    sum: vec3f, squares: f32,
+    samples: u32, body: u32, start: u32, listed: u32,
+}
+
 struct View {
     eye: vec3f, width: u32,
     forward: vec3f, height: u32,
@@ -78,12 +83,14 @@ struct Frame {
 struct Tile {
     first_block: u32, block_count: u32, first_sample: u32, sample_count: u32, first_row: u32,
     step_budget: u32, resume: u32, canary_rounds: u32, canary_result: u32,
+    listed: u32, round: u32, threshold: f32,
 }
 
 // A pixel as the film keeps it.
 struct FilmTexel {
     texel: Texel,
     @if(aovs) aov: Aov,
+    @if(adaptive) statistics: Statistics,
 }
 
 // An invocation at rest: which sample it goes on with, and the tree in work.
@@ -100,11 +107,32 @@ struct FilmHead {
     tile: Tile,
     done: atomic<u32>, paused: atomic<u32>, cut_short: atomic<u32>,
     primary: atomic<u32>, reflection: atomic<u32>, refraction: atomic<u32>, shadow: atomic<u32>,
+    listed: atomic<u32>,
+}
+
+// One ray of a pixel's tree.
+struct TreeNode {
+    origin: vec3f, kind: u32,
+    direction: vec3f, depth: u32,
+    weight: vec3f, end: u32,
+    light: vec3f, media: u32,
+    point: vec3f, id: u32,
+    normal: vec3f, body: u32,
+    arriving: vec3f, media_behind: u32,
+    distance: f32, front: u32, children: u32, seen: u32,
+    shadow_rays: u32, reserved: array<u32, 3>,
+}
+
+// The tree of the one pixel that is traced.
+@if(tree) struct Tree {
+    count: u32,
+    nodes: array<TreeNode, TREE_NODES>,
 }
 
 // The film, with the invocations of one dispatch.
 struct Film {
     head: FilmHead,
     lanes: array<Lane, LANES>,
+    @if(tree) tree: Tree,
     texels: array<FilmTexel>,
 }

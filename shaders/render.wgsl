@@ -1,8 +1,9 @@
-// Entry point: one workgroup a block of pixels.
+// Entry point: one workgroup traces a block of pixels.
 
 import package::whitted::{lane, trace_pixel};
 import package::bindings::{film, frame};
-import package::constants::BLOCK;
+import package::blocks::{place_of, slot_in_block, slot_in_list};
+import package::constants::{BLOCK, NONE};
 
 @compute @workgroup_size(BLOCK, BLOCK)
 fn render(
@@ -10,15 +11,15 @@ fn render(
     @builtin(local_invocation_id) local: vec3u,
     @builtin(local_invocation_index) index: u32,
 ) {
-    let crop = frame.view.crop;
-    let columns = (crop.z + BLOCK - 1u) / BLOCK;
-    let block = film.head.tile.first_block + group.x;
-    let x = (block % columns) * BLOCK + local.x;
-    let y = (block / columns) * BLOCK + local.y;
-    if x < crop.z && y < crop.w {
+    var slot = slot_in_block(group.x, local.xy);
+    @if(adaptive) {
+        if film.head.tile.listed != 0u {
+            slot = slot_in_list(group.x, index);
+        }
+    }
+    if slot != NONE {
         lane = group.x * BLOCK * BLOCK + index;
-        let slot = (y - film.head.tile.first_row) * crop.z + x;
-        if !trace_pixel(vec2u(crop.x + x, crop.y + y), slot) {
+        if !trace_pixel(frame.view.crop.xy + place_of(slot), slot) {
             atomicAdd(&film.head.paused, 1u);
         }
     }

@@ -1,10 +1,10 @@
 // Stop 4 of 7: surface. Twin of src/kernel/surface.rs.
 
-import package::real::{real, vec3r};
-import package::math::{dot3, unit3};
+import package::real::{greatest, least, real, vec3r};
+import package::math::{dot3, max3, unit3};
 import package::bvh::{Hit, Ray};
 import package::bindings::{attributes, corners, triangles};
-import package::constants::{NONE, ROUNDOFF, SPAWN_ROUNDOFFS};
+import package::constants::{EDGE_ROUNDOFFS, MOST_EDGE_WEIGHT, NONE, ROUNDOFF, SPAWN_ROUNDOFFS};
 
 // A point on a face, as the ray that found it sees it.
 struct Surface {
@@ -27,17 +27,24 @@ fn resolve(ray: Ray, hit: Hit) -> Surface {
     let v2 = vec3r(triangles[hit.index].v2);
     let face = attributes[hit.id];
     let b0 = 1.0 - hit.b1 - hit.b2;
-    // The point; how far rounding may put it off the face, and a leaving ray's test of this very face off the point.
+    // The point; how far rounding may put it off the face, and another face of the same plane off the point.
     let p0 = v0 * b0;
     let p1 = v1 * hit.b1;
     let p2 = v2 * hit.b2;
-    let point = p0 + p1 + p2;
+    let weighted = p0 + p1 + p2;
     let size = abs(p0) + abs(p1) + abs(p2);
     let extent = abs(v1 - v0) + abs(v2 - v0);
     let outward = vec3r(face.normal);
     let face_normal = select(-outward, outward, hit.front);
-    let reach = dot3(abs(face_normal), size) + (extent.x + extent.y + extent.z);
+    let span = max3(extent);
+    let reach = dot3(abs(face_normal), size) + span * 0.5;
     let offset = reach * (SPAWN_ROUNDOFFS * ROUNDOFF);
+    // Off the edges, so that a leaving ray is on the right side of the next face as well.
+    let extents = extent.x + extent.y + extent.z;
+    let spread = (size.x + size.y + size.z + extents) / extents;
+    let margin = least(spread * (EDGE_ROUNDOFFS * ROUNDOFF), MOST_EDGE_WEIGHT);
+    let point = weighted + off_edge(weighted, v0, b0, margin) + off_edge(weighted, v1, hit.b1, margin)
+        + off_edge(weighted, v2, hit.b2, margin);
     var surface = Surface(
         point, offset, face_normal, face_normal, point, array<real, 2>(0.0, 0.0), face.material, face.body, hit.id,
         hit.front,
@@ -60,6 +67,12 @@ fn resolve(ray: Ray, hit: Hit) -> Surface {
             point + lift(point, v0, n0) * b0 + lift(point, v1, n1) * hit.b1 + lift(point, v2, n2) * hit.b2;
     }
     return surface;
+}
+
+// What moves a point that lies on the edge opposite a corner, or nearly so, towards that corner, until the corner's
+// weight is `margin`; nothing for others.
+fn off_edge(point: vec3r, corner: vec3r, weight: real, margin: real) -> vec3r {
+    return (corner - point) * greatest(margin - weight, 0.0);
 }
 
 // A corner's shading normal on the ray's side.

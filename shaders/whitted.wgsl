@@ -1,15 +1,17 @@
 // The itinerary: the whole ray tree of a sample, one loop with an explicit stack. Twin of src/kernel/whitted.rs.
 
 import package::real::{real, vec3r};
+import package::adaptive::{round_end, tally};
 import package::background::background;
 import package::bvh::{far, intersect, make_ray, steps};
 import package::camera::primary_ray;
-import package::film::{Sample, add, flush, flush3};
+import package::film::{Sample, add, flush, flush3, settle};
 import package::hash::{mix_hash, sample_offset};
 import package::light::direct;
 import package::material::{is_transmissive, scatter};
 import package::math::max3;
 import package::media::{attenuation, cross_face, current_medium};
+import package::record::{record_end, record_surface};
 import package::records::Aov;
 import package::surface::{Surface, resolve, spawn_before, spawn_behind};
 import package::bindings::{film, frame};
@@ -25,6 +27,7 @@ struct Branch {
     depth: u32,
     weight: vec3r,
     kind: u32,
+    origin_face: u32,
 }
 
 // How a branch ends: where it meets a surface that matters, or `found` false where it meets none.
@@ -53,8 +56,13 @@ var<private> lane: u32;
 // Trace the tile's samples of a pixel of the whole picture onto texel `slot` of the film; false if it had to rest, to be
 // resumed by the next dispatch.
 fn trace_pixel(pixel: vec2u, slot: u32) -> bool {
-    let end = film.head.tile.first_sample + film.head.tile.sample_count;
     var i = film.head.tile.first_sample;
+    var end = i + film.head.tile.sample_count;
+    @if(adaptive) {
+        let start = film.texels[slot].statistics.start;
+        i += start;
+        end = min(start + end, round_end(start, frame.view.samples));
+    }
     // A tree of one ray rests before it begins.
     var resumes = false;
     if film.head.tile.resume != 0u {
@@ -80,6 +88,15 @@ fn trace_pixel(pixel: vec2u, slot: u32) -> bool {
             break;
         }
         film.texels[slot].texel = add(film.texels[slot].texel, sample, i);
+        @if(adaptive) {
+            film.texels[slot].statistics =
+                tally(film.texels[slot].statistics, flush3(sample.radiance), sample.first_body);
+        }
+        @if(antialiasing && !adaptive) {
+            if i > 0u && i + 1u == frame.view.samples {
+                film.texels[slot].texel = settle(film.texels[slot].texel, i + 1u);
+            }
+        }
         @if(aovs) {
             if i == 0u {
                 film.texels[slot].aov = sample.aov;
@@ -109,13 +126,16 @@ fn start_tree(direction: vec3r) {
     sample.primitive_hash = 0u;
     sample.body_hash = 0u;
     @if(aovs) { sample.aov = Aov(vec3f(0.0), 0.0, NONE, NONE, vec2u(0u)); }
+    @if(adaptive) { sample.first_body = NONE; }
     @if(branches) stack_size = 0u;
+    @if(tree) film.tree.count = 0u;
     current.origin = vec3r(frame.view.eye);
     @if(transmission) current.media = frame.view.start_media;
     current.direction = direction;
     current.depth = 0u;
     current.weight = vec3r(1.0);
     current.kind = RAY_PRIMARY;
+    current.origin_face = NONE;
 }
 
 // Leave a branch for later.
@@ -186,7 +206,7 @@ fn count_ray(kind: u32) {
 fn find_surface(branch: Branch) -> Landing {
     var landing: Landing;
     @if(!transmission) {
-        let ray = make_ray(branch.origin, branch.direction);
+        let ray = make_ray(branch.origin, branch.direction, branch.origin_face);
         let hit = intersect(ray, far());
         if hit.id != NONE {
             landing.found = true;
@@ -196,11 +216,12 @@ fn find_surface(branch: Branch) -> Landing {
     }
     @if(transmission) {
         var origin = branch.origin;
+        var origin_face = branch.origin_face;
         landing.media = branch.media;
         landing.distance = 0.0;
         for (var i = 0u; i < MAX_PASSES; i++) {
             steps += LOOP_STEPS;
-            let ray = make_ray(origin, branch.direction);
+            let ray = make_ray(origin, branch.direction, origin_face);
             let hit = intersect(ray, far());
             if hit.id == NONE {
                 return landing;
@@ -215,6 +236,7 @@ fn find_surface(branch: Branch) -> Landing {
             }
             landing.media = landing.media_behind;
             origin = spawn_behind(landing.surface);
+            origin_face = hit.id;
         }
         landing.stuck = true;
     }
@@ -223,7 +245,9 @@ fn find_surface(branch: Branch) -> Landing {
 
 // A branch that meets nothing sees the background. A cut one takes it too, and is accounted for.
 fn see_background(branch: Branch, cut: bool) {
-    sample.radiance = sample.radiance + branch.weight * background(branch.direction);
+    let light = branch.weight * background(branch.direction);
+    sample.radiance = sample.radiance + light;
+    @if(tree) record_end(branch, light, cut);
     if !cut {
         sample.primitive_hash = mix_hash(sample.primitive_hash, branch.kind);
         sample.body_hash = mix_hash(sample.body_hash, branch.kind);
@@ -250,7 +274,8 @@ fn shade(branch: Branch, landing: Landing) -> Next {
     // Local light.
     @if(tinted_shadows) let local = direct(surface, branch.direction, landing.media);
     @else let local = direct(surface, branch.direction);
-    sample.radiance = sample.radiance + weight * local.radiance;
+    let light = weight * local.radiance;
+    sample.radiance = sample.radiance + light;
     sample.rays += local.shadow_rays;
     sample.rays_by_kind[RAY_SHADOW] += local.shadow_rays;
     note_path(branch.kind, surface, local.seen);
@@ -259,9 +284,15 @@ fn shade(branch: Branch, landing: Landing) -> Next {
             sample.aov = Aov(flush3(surface.normal), flush(landing.distance), surface.body, behind, vec2u(0u));
         }
     }
+    @if(adaptive) {
+        if branch.depth == 0u {
+            sample.first_body = surface.body;
+        }
+    }
     // Children: where there are two, reflection waits.
     var next: Next;
     @if(bounces) let scattered = scatter(surface, branch.direction, before, behind);
+    @if(tree) record_surface(branch, landing, weight, light, local, scattered);
     @if(reflection) {
         if scattered.reflects {
             next.found = true;
@@ -271,6 +302,7 @@ fn shade(branch: Branch, landing: Landing) -> Next {
             next.branch.depth = branch.depth + 1u;
             next.branch.weight = weight * scattered.reflection;
             next.branch.kind = RAY_REFLECTION;
+            next.branch.origin_face = surface.id;
         }
     }
     @if(transmission) {
@@ -287,6 +319,7 @@ fn shade(branch: Branch, landing: Landing) -> Next {
             next.branch.depth = branch.depth + 1u;
             next.branch.weight = weight * scattered.transmission;
             next.branch.kind = RAY_REFRACTION;
+            next.branch.origin_face = surface.id;
         }
     }
     return next;

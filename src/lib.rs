@@ -1,5 +1,6 @@
 #![doc = include_str!("ARCHITECTURE.md")]
 
+pub mod bench;
 pub mod bvh;
 pub mod cli;
 pub mod cpu;
@@ -8,4 +9,8 @@ pub mod flatten;
 pub mod gpu;
 pub mod kernel;
 pub mod layout;
+pub mod plot;
 pub mod scene;
+pub mod selftest;
+pub mod study;
+pub mod trace;

@@ -1,8 +1,11 @@
 //! The integration tests: one binary, one module per concern.
 
 mod cli;
-mod closed_forms;
 mod effects;
+mod fuzz;
 mod layering;
 mod lockstep;
 mod scenes;
+mod selftest;
+mod study;
+mod trace;

@@ -27,6 +27,11 @@ impl Console {
         !self.quiet && stderr().is_terminal()
     }
 
+    /// Whether more is wanted.
+    pub(super) fn is_verbose(self) -> bool {
+        self.verbose
+    }
+
     /// A line that most people want to see.
     pub(super) fn note(self, message: impl Display) {
         if !self.quiet {

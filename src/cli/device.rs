@@ -156,7 +156,7 @@ fn model_name(cpuinfo: &str) -> Option<&str> {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::gpu::AdapterKind;
+    use crate::gpu::{AdapterKind, Promises};
 
     fn adapter(name: &str, kind: AdapterKind, f64: bool) -> AdapterReport {
         AdapterReport {
@@ -165,6 +165,7 @@ mod tests {
             driver: String::new(),
             driver_info: String::new(),
             strict_float: true,
+            promises: Promises::default(),
             f64,
             timestamps: false,
             subgroup: [8, 8],

@@ -54,6 +54,7 @@ struct Adapter {
     kind: &'static str,
     driver: String,
     strict_float: bool,
+    float_controls: Vec<&'static str>,
     f64: bool,
     timestamps: bool,
     subgroup: [u32; 2],
@@ -76,6 +77,7 @@ impl Adapter {
             kind: report.kind.name(),
             driver: format!("{} {}", report.driver, report.driver_info).trim().to_owned(),
             strict_float: report.strict_float,
+            float_controls: report.promises.f32.names(),
             f64: report.f64,
             timestamps: report.timestamps,
             subgroup: report.subgroup,
@@ -91,12 +93,13 @@ fn table(report: &Report) -> String {
     let yes_no = |yes| if yes { "yes" } else { "no" };
     for adapter in &report.adapters {
         text += &format!(
-            "GPU  {} ({})\n       driver         {}\n       strict float   {}\n       f64            {}\n       \
+            "GPU  {} ({})\n       driver         {}\n       strict float   {}{}\n       f64            {}\n       \
              largest buffer {} MiB, {} MiB seen at once\n       subgroup       {} to {}\n",
             adapter.name,
             adapter.kind,
             adapter.driver,
             yes_no(adapter.strict_float),
+            kept(&adapter.float_controls),
             yes_no(adapter.f64),
             adapter.max_buffer >> 20,
             adapter.max_storage_binding >> 20,
@@ -107,10 +110,15 @@ fn table(report: &Report) -> String {
     text
 }
 
+/// What the driver promises beyond strict sums.
+fn kept(promises: &[&str]) -> String {
+    if promises.is_empty() { String::new() } else { format!(" ({})", promises.join(", ")) }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gpu::AdapterKind;
+    use crate::gpu::{AdapterKind, FloatControls, Promises};
 
     #[test]
     fn every_adapter_is_listed_with_what_it_can_do() {
@@ -120,6 +128,10 @@ mod tests {
             driver: "lavapipe".to_owned(),
             driver_info: "Mesa 22.3".to_owned(),
             strict_float: true,
+            promises: Promises {
+                f32: FloatControls { signed_zero_inf_nan: true, ..FloatControls::default() },
+                ..Promises::default()
+            },
             f64: false,
             timestamps: true,
             subgroup: [4, 8],
@@ -131,7 +143,7 @@ mod tests {
         for part in [
             "llvmpipe (software)",
             "lavapipe Mesa 22.3",
-            "strict float   yes",
+            "strict float   yes (keeps the sign of zero)",
             "f64            no",
             "256 MiB",
         ] {

@@ -4,10 +4,13 @@ use std::io;
 
 use thiserror::Error;
 
+use crate::bench::BenchError;
 use crate::cpu::CpuError;
 use crate::film::{DifferenceError, EncodeError, LoadError, OutputError};
 use crate::gpu::GpuError;
 use crate::scene::{Diagnostic, SceneError};
+use crate::selftest::DeviceError;
+use crate::study::StudyError;
 
 /// How a command that met no error ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -56,8 +59,42 @@ pub(super) enum CliError {
     Cpu(#[from] CpuError),
     #[error(transparent)]
     Gpu(#[from] GpuError),
+    #[error(transparent)]
+    Study(StudyError),
     #[error("cannot write the report as JSON: {0}")]
     Json(serde_json::Error),
+}
+
+impl From<BenchError> for CliError {
+    fn from(error: BenchError) -> Self {
+        match error {
+            BenchError::Cpu(error) => Self::Cpu(error),
+            BenchError::Gpu(error) => Self::Gpu(error),
+            BenchError::Scene(error) => Self::Scene(error),
+        }
+    }
+}
+
+/// A study fails with the errors of its parts, which keep their exit codes.
+impl From<StudyError> for CliError {
+    fn from(error: StudyError) -> Self {
+        match error {
+            StudyError::Scene(error) => Self::Scene(error),
+            StudyError::Cpu(error) => Self::Cpu(error),
+            StudyError::Gpu(error) => Self::Gpu(error),
+            other => Self::Study(other),
+        }
+    }
+}
+
+impl From<DeviceError> for CliError {
+    fn from(error: DeviceError) -> Self {
+        match error {
+            DeviceError::Cpu(error) => Self::Cpu(error),
+            DeviceError::Gpu(error) => Self::Gpu(error),
+            DeviceError::Scene(error) => Self::Scene(error),
+        }
+    }
 }
 
 impl CliError {
@@ -88,6 +125,7 @@ impl CliError {
             | Self::Encode(_)
             | Self::Load(_)
             | Self::Difference(_)
+            | Self::Study(_)
             | Self::Json(_) => 2,
         }
     }

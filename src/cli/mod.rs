@@ -1,8 +1,9 @@
 //! The command line: raw arguments, then a typed configuration, then the run; one file a command.
 //!
-//! Errors travel up as values and are printed here, once. Exit codes: 0 done; 1 a comparison failed;
+//! Errors travel up as values and are printed here, once. Exit codes: 0 done; 1 a comparison or case failed;
 //! 2 usage, scene or file error; 3 no such device; 4 device lost; 130 interrupted by Ctrl-C.
 
+mod bench;
 mod check;
 mod console;
 mod device;
@@ -10,7 +11,11 @@ mod devices;
 mod diff;
 mod error;
 mod prepare;
+mod progress;
 mod render;
+mod selftest;
+mod study;
+mod trace;
 mod values;
 mod view;
 
@@ -39,7 +44,7 @@ Examples:
   snellius check scenes/ice.toml
   snellius help render
 
-Exit codes: 0 done; 1 a comparison failed; 2 usage, scene or file error; 3 no such device;
+Exit codes: 0 done; 1 a comparison or case failed; 2 usage, scene or file error; 3 no such device;
 4 device lost; 130 interrupted by Ctrl-C.
 Environment: WGPU_BACKEND, WGPU_ADAPTER_NAME, RAYON_NUM_THREADS, NO_COLOR, RUST_LOG."
 )]
@@ -58,8 +63,12 @@ struct Cli {
 enum Command {
     Render(Box<render::RenderArgs>),
     Check(check::CheckArgs),
+    Bench(bench::BenchArgs),
     Devices(devices::DevicesArgs),
     Diff(diff::DiffArgs),
+    Study(study::StudyArgs),
+    Trace(trace::TraceArgs),
+    Selftest(selftest::SelftestArgs),
     /// A scene, or a mistake.
     #[command(external_subcommand)]
     Scene(Vec<OsString>),
@@ -86,8 +95,12 @@ fn run(cli: Cli, console: Console) -> Result<Outcome, CliError> {
     match cli.command {
         Some(Command::Render(args)) => render::run(*args, console),
         Some(Command::Check(args)) => check::run(&args),
+        Some(Command::Bench(args)) => bench::run(&args, console),
         Some(Command::Devices(args)) => devices::run(&args, console),
         Some(Command::Diff(args)) => diff::run(args, console),
+        Some(Command::Study(args)) => study::run(args, console),
+        Some(Command::Trace(args)) => trace::run(&args, console),
+        Some(Command::Selftest(args)) => selftest::run(&args, console),
         Some(Command::Scene(words)) => Err(view::no_viewer(&words)),
         None => {
             console::print(&Cli::command().render_help().to_string())?;

@@ -54,6 +54,11 @@ words! {
         Self::Eight => "8", "256 levels";
         Self::Sixteen => "16", "65536 levels";
     }
+    ErrorMetric {
+        Self::Rmse => "rmse", "root mean square over pixels and channels";
+        Self::Max => "max", "the greatest error of a channel";
+        Self::Flip => "flip", "the mean error that a person sees (Andersson et al. 2020)";
+    }
     ProgressStyle {
         Self::Auto => "auto", "a bar on a terminal, else nothing";
         Self::Plain => "plain", "a line now and then";
@@ -64,6 +69,24 @@ words! {
 /// The name of a value as the command line spells it.
 pub(super) fn name_of(value: impl ValueEnum) -> String {
     value.to_possible_value().map_or_else(String::new, |possible| possible.get_name().to_owned())
+}
+
+/// Which error a budget limits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum ErrorMetric {
+    Rmse,
+    Max,
+    Flip,
+}
+
+impl From<ErrorMetric> for Metric {
+    fn from(metric: ErrorMetric) -> Self {
+        match metric {
+            ErrorMetric::Rmse => Self::Rmse,
+            ErrorMetric::Max => Self::Max,
+            ErrorMetric::Flip => Self::Flip,
+        }
+    }
 }
 
 /// How progress is shown on standard error.

@@ -1,5 +1,7 @@
 //! The CPU renderer: rayon over tiles, around [`kernel::whitted`](crate::kernel::whitted).
 
+mod adaptive;
+
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -7,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
 
-use crate::film::{Frame, Progress, RayCounts, Renderer, TraceTimes};
+use crate::film::{Frame, Progress, RayCounts, Renderer, SampleCounts, TraceTimes};
 use crate::kernel::whitted::{Branch, trace_pixel};
 use crate::kernel::{Real, Simulation, Within, World};
 use crate::layout::{Aov, Effect, EffectSet, FlatScene, Float, Precision, Scan, Settings, Texel, View};
@@ -86,6 +88,13 @@ impl Renderer for CpuRenderer<'_> {
     }
 }
 
+fn render<R: Real>(world: &World<impl Simulation>, settings: &Settings, progress: &dyn Progress) -> Frame {
+    match settings.threshold().filter(|_| world.simulates(Effect::Adaptive)) {
+        Some(threshold) => adaptive::render_adaptive::<R, _>(world, settings, threshold, progress),
+        None => render_uniform::<R>(world, settings, progress),
+    }
+}
+
 /// One tile's pixels, row by row.
 struct Tile {
     x: u32,
@@ -96,13 +105,18 @@ struct Tile {
     rays: [u64; 4],
 }
 
-fn render<R: Real>(world: &World<impl Simulation>, settings: &Settings, progress: &dyn Progress) -> Frame {
+fn render_uniform<R: Real>(
+    world: &World<impl Simulation>,
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Frame {
     let [_, _, width, height] = world.view.crop;
     let pixels = width as usize * height as usize;
     let frame = Mutex::new(Frame {
         width,
         height,
         texels: vec![Texel::default(); pixels],
+        samples: SampleCounts::Same(world.view.samples),
         aovs: settings.aovs.then(|| vec![Aov::default(); pixels]),
         float: Float::Strict,
         rays: RayCounts::default(),
@@ -161,6 +175,7 @@ fn trace_tile<R: Real>(
             0..world.view.samples,
             &mut tile.texels[i as usize],
             &mut tile.aovs[i as usize],
+            None,
         );
         for (sum, n) in tile.rays.iter_mut().zip(rays) {
             *sum += u64::from(n);
@@ -178,9 +193,5 @@ fn paste(frame: &mut Frame, tile: &Tile) {
             aovs[first..first + width].copy_from_slice(&tile.aovs[row * width..(row + 1) * width]);
         }
     }
-    let [primary, reflection, refraction, shadow] = tile.rays;
-    frame.rays.primary += primary;
-    frame.rays.reflection += reflection;
-    frame.rays.refraction += refraction;
-    frame.rays.shadow += shadow;
+    frame.rays.add(tile.rays);
 }

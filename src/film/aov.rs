@@ -16,6 +16,8 @@ pub enum AovKind {
     Medium,
     /// Rays traced, of all kinds and samples.
     Rays,
+    /// Samples that the pixel is the mean of.
+    Samples,
     /// Largest weight channel of every cut ray, summed; the mean of the samples.
     Dropped,
     /// Certified bound on the truncation error, as linear radiance; the mean of the samples.
@@ -28,12 +30,13 @@ pub enum AovKind {
 
 impl AovKind {
     /// All kinds, in the order of menus and help texts.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Depth,
         Self::Normal,
         Self::Body,
         Self::Medium,
         Self::Rays,
+        Self::Samples,
         Self::Dropped,
         Self::Bound,
         Self::PrimitiveHash,
@@ -49,6 +52,7 @@ impl AovKind {
             Self::Body => "body",
             Self::Medium => "medium",
             Self::Rays => "rays",
+            Self::Samples => "samples",
             Self::Dropped => "dropped",
             Self::Bound => "bound",
             Self::PrimitiveHash => "primitive-hash",
@@ -65,6 +69,7 @@ impl AovKind {
             Self::Body => "body that the primary ray meets first",
             Self::Medium => "medium behind that surface, as a material index; 0 is air",
             Self::Rays => "rays traced for the pixel",
+            Self::Samples => "samples taken of the pixel",
             Self::Dropped => "weight of the rays that --depth and --cutoff left out",
             Self::Bound => "certified bound on the error this causes, as radiance",
             Self::PrimitiveHash => "fingerprint of the ray tree, by triangles",
@@ -94,6 +99,10 @@ impl AovKind {
             Self::Body => vec![Channel::u32(self.name(), first_hits(frame)?.iter().map(|a| a.body))],
             Self::Medium => vec![Channel::u32(self.name(), first_hits(frame)?.iter().map(|a| a.medium))],
             Self::Rays => vec![Channel::u32(self.name(), texels(frame).map(|t| t.rays))],
+            Self::Samples => {
+                let count = frame.texels.len();
+                vec![Channel::u32(self.name(), (0..count).map(|pixel| frame.samples.of(pixel)))]
+            }
             Self::Dropped => vec![Channel::f32(self.name(), texels(frame).map(|t| t.dropped))],
             Self::Bound => vec![Channel::f32(self.name(), texels(frame).map(|t| t.bound))],
             Self::PrimitiveHash => {

@@ -23,10 +23,10 @@ pub use aov::AovKind;
 pub use difference::{Difference, DifferenceError, Metric};
 pub use encode::{BitDepth, EncodeError, encode_exr, encode_hdr, encode_png, encode_preview};
 pub use flip::flip;
-pub use frame::{Frame, Progress, RayCounts, Renderer, TraceTimes};
+pub use frame::{Frame, Progress, RayCounts, Renderer, SampleCounts, TraceTimes};
 pub use load::{LoadError, LoadReason, load};
 pub use metadata::Metadata;
-pub use output::{Format, Output, OutputError};
+pub use output::{Format, Output, OutputError, write_whole};
 pub use picture::{Channel, Picture, Samples};
 pub use preview::{Preview, difference_preview};
 pub use summary::{MeanMax, Summary};
@@ -41,6 +41,7 @@ pub(crate) fn test_frame(width: u32, height: u32) -> Frame {
         width,
         height,
         texels: vec![crate::layout::Texel::default(); pixels],
+        samples: SampleCounts::Same(1),
         aovs: Some(vec![crate::layout::Aov::default(); pixels]),
         float: crate::layout::Float::Strict,
         rays: RayCounts::default(),

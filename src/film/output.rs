@@ -107,7 +107,7 @@ impl Output {
     pub fn write(&self, bytes: &[u8]) -> Result<(), OutputError> {
         let written = match self {
             Self::Stdout => write_stdout(bytes),
-            Self::File { path, .. } => replace(path, bytes),
+            Self::File { path, .. } => write_whole(path, bytes),
         };
         written.map_err(|error| OutputError::Io { output: self.clone(), error })
     }
@@ -128,8 +128,12 @@ fn write_stdout(bytes: &[u8]) -> io::Result<()> {
     stdout.flush()
 }
 
-/// Write to a temporary file of the same folder, hence of the same file system, and rename it.
-fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+/// Write a file of any kind, whole, or leave what was there before: to a temporary file of the same folder, hence
+/// of the same file system, which is then renamed.
+///
+/// # Errors
+/// As the file system's; no temporary file is left behind.
+pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut builder = tempfile::Builder::new();
     let prefix = [OsStr::new("."), path.file_name().unwrap_or_default(), OsStr::new(".")];
     let prefix: std::ffi::OsString = prefix.into_iter().collect();

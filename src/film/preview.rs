@@ -34,7 +34,11 @@ impl AovKind {
             Self::Normal => normal(frame)?,
             Self::Body => body(frame)?,
             Self::Medium => medium(frame)?,
-            Self::Rays => rays(frame),
+            Self::Rays => counts(frame.texels.iter().map(|t| t.rays).collect(), "rays"),
+            Self::Samples => {
+                let samples = (0..frame.texels.len()).map(|pixel| frame.samples.of(pixel));
+                counts(samples.collect(), "samples")
+            }
             Self::Dropped => decades(frame.texels.iter().map(|t| t.dropped).collect(), "weight"),
             Self::Bound => decades(frame.texels.iter().map(|t| t.bound).collect(), "radiance"),
             Self::PrimitiveHash => hashes(frame.texels.iter().map(|t| t.primitive_hash)),
@@ -90,11 +94,12 @@ fn medium(frame: &Frame) -> Option<Preview> {
     Some(Preview { pixels, legend })
 }
 
-fn rays(frame: &Frame) -> Preview {
-    let most = frame.texels.iter().map(|t| t.rays).max().unwrap_or(0);
+fn counts(counts: Vec<u32>, unit: &str) -> Preview {
+    let most = counts.iter().copied().max().unwrap_or(0);
     let scale = 1.0 / (most.max(1) as f32).ln_1p();
-    let pixels = frame.texels.iter().map(|t| viridis((t.rays as f32).ln_1p() * scale)).collect();
-    Preview { pixels, legend: format!("0 rays (dark blue) to {most} (yellow), logarithmic in rays + 1") }
+    let pixels = counts.iter().map(|&count| viridis((count as f32).ln_1p() * scale)).collect();
+    let legend = format!("0 {unit} (dark blue) to {most} (yellow), logarithmic in {unit} + 1");
+    Preview { pixels, legend }
 }
 
 /// Positive values on a logarithmic scale below the greatest one.

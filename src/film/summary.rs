@@ -14,10 +14,10 @@ pub struct MeanMax {
 }
 
 impl MeanMax {
-    fn of(values: impl ExactSizeIterator<Item = f32>) -> Self {
+    /// Of any values.
+    pub fn over(values: impl ExactSizeIterator<Item = f64>) -> Self {
         let count = values.len().max(1) as f64;
         let (sum, max) = values
-            .map(f64::from)
             .fold((0.0, 0.0), |(sum, max), v| (sum + v, if v <= max || max.is_nan() { max } else { v }));
         Self { mean: sum / count, max }
     }
@@ -30,6 +30,8 @@ pub struct Summary {
     pub dropped: MeanMax,
     /// Certified bound on the truncation error, as linear radiance.
     pub bound: MeanMax,
+    /// Samples that a pixel is the mean of.
+    pub samples: MeanMax,
     /// Pixels with a channel that is NaN or infinite.
     pub non_finite_pixels: usize,
 }
@@ -40,8 +42,9 @@ impl Summary {
     pub fn of(frame: &Frame) -> Self {
         let is_finite = |radiance: &[f32; 3]| radiance.iter().all(|v| v.is_finite());
         Self {
-            dropped: MeanMax::of(frame.texels.iter().map(|t| t.dropped)),
-            bound: MeanMax::of(frame.texels.iter().map(|t| t.bound)),
+            dropped: MeanMax::over(frame.texels.iter().map(|t| f64::from(t.dropped))),
+            bound: MeanMax::over(frame.texels.iter().map(|t| f64::from(t.bound))),
+            samples: MeanMax::over((0..frame.texels.len()).map(|i| f64::from(frame.samples.of(i)))),
             non_finite_pixels: frame.texels.iter().filter(|t| !is_finite(&t.radiance)).count(),
         }
     }
@@ -50,7 +53,7 @@ impl Summary {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::film::test_frame;
+    use crate::film::{SampleCounts, test_frame};
 
     #[test]
     fn dropped_weight_is_averaged_over_all_pixels() {
@@ -82,5 +85,11 @@ mod tests {
     #[test]
     fn an_empty_frame_has_no_mean() {
         assert_eq!(Summary::of(&test_frame(0, 0)), Summary::default());
+    }
+
+    #[test]
+    fn samples_are_averaged_over_all_pixels() {
+        let frame = Frame { samples: SampleCounts::Each(vec![2, 2, 4, 64]), ..test_frame(2, 2) };
+        assert_eq!(Summary::of(&frame).samples, MeanMax { mean: 18.0, max: 64.0 });
     }
 }

@@ -36,7 +36,9 @@ pub(super) fn least_distance(scene: &FlatScene, light: DVec3, lift: f64) -> f64 
 /// planes of a smooth triangle's corners above its points, and the bound on rounding that keeps it off the face.
 pub(super) fn greatest_lift(scene: &FlatScene) -> f64 {
     let [lo, hi] = scene.bounds.map(widen3);
-    let rounding = SPAWN_ROUNDOFFS * ROUNDOFF_F32 * lo.abs().max(hi.abs()).length();
+    // The point, and half the extent of two edges, each of them at most twice as long as the greatest coordinate.
+    let roundoffs = SPAWN_ROUNDOFFS * (1.0 + 2.0);
+    let rounding = roundoffs * ROUNDOFF_F32 * lo.abs().max(hi.abs()).length();
     rounding + scene.triangles.iter().map(|triangle| lift(scene, triangle)).fold(0.0, f64::max)
 }
 

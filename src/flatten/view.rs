@@ -73,6 +73,7 @@ mod tests {
         depth: 7,
         cutoff: 0.01,
         samples: 3,
+        adaptive: None,
         precision: Precision::F32,
         float: Float::Strict,
         intersector: Intersector::Watertight,

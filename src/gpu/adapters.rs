@@ -1,6 +1,6 @@
 //! The Vulkan adapters of this machine: what they are, what they can do, and which one to take.
 
-use super::GpuError;
+use super::{GpuError, Promises};
 
 /// What an adapter is made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -73,6 +73,8 @@ pub struct AdapterReport {
     pub driver_info: String,
     /// Takes SPIR-V as it is: `--float strict` works.
     pub strict_float: bool,
+    /// What strict shaders ask for beyond that.
+    pub promises: Promises,
     /// Has 64-bit floats: `--precision f64` works.
     pub f64: bool,
     /// Measures its own time.
@@ -103,6 +105,7 @@ impl AdapterReport {
             driver: info.driver,
             driver_info: info.driver_info,
             strict_float: features.contains(wgpu::Features::PASSTHROUGH_SHADERS),
+            promises: Promises::of(adapter),
             f64: features.contains(wgpu::Features::SHADER_F64),
             timestamps: features.contains(wgpu::Features::TIMESTAMP_QUERY),
             subgroup: [info.subgroup_min_size, info.subgroup_max_size],
@@ -176,6 +179,7 @@ mod tests {
             driver: String::new(),
             driver_info: String::new(),
             strict_float: false,
+            promises: Promises::default(),
             f64: false,
             timestamps: false,
             subgroup: [8, 8],

@@ -60,7 +60,7 @@ impl Blocks {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::film::{RayCounts, TraceTimes};
+    use crate::film::{RayCounts, SampleCounts, TraceTimes};
     use crate::layout::{Aov, Float, Texel};
 
     #[test]
@@ -73,6 +73,7 @@ mod tests {
             width: 20,
             height: 10,
             texels: vec![grey; 180],
+            samples: SampleCounts::Same(1),
             aovs: Some(vec![Aov { depth: 1.0, ..Aov::default() }; 180]),
             float: Float::Strict,
             rays: RayCounts::default(),

@@ -137,17 +137,19 @@ impl Context {
         Ok(())
     }
 
-    /// Copy out of a buffer, in parts, each handed to `take`.
+    /// Copy records of so many bytes out of a buffer, in parts of whole records, each handed to `take`.
     pub(super) fn read(
         &self,
         buffer: &wgpu::Buffer,
         range: Range<u64>,
+        record: u64,
         mut take: impl FnMut(&[u8]),
     ) -> Result<(), GpuError> {
-        let staging = self.staging(TRANSFER.min(range.end - range.start))?;
+        let part = (TRANSFER / record).max(1) * record;
+        let staging = self.staging(part.min(range.end - range.start))?;
         let mut start = range.start;
         while start < range.end {
-            let size = TRANSFER.min(range.end - start);
+            let size = part.min(range.end - start);
             let mut encoder = self.encoder();
             encoder.copy_buffer_to_buffer(buffer, start, &staging, 0, size);
             self.queue.submit([encoder.finish()]);

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use super::GpuError;
 use super::blocks::Blocks;
 use super::context::Context;
-use super::film::FilmBuffer;
+use super::film::{FilmBuffer, Pixels};
 use super::pace::Pace;
 use crate::film::{Frame, Progress, RayCounts};
 use crate::layout::constants::BLOCK;
@@ -24,6 +24,8 @@ pub(super) struct Job<'a> {
     pub(super) group: wgpu::BindGroup,
     pub(super) blocks: Blocks,
     pub(super) band_height: u32,
+    /// Bytes before the recorded tree in the film.
+    pub(super) tree_at: u64,
 }
 
 impl Job<'_> {
@@ -34,6 +36,7 @@ impl Job<'_> {
         progress: &dyn Progress,
         frame: &mut Frame,
     ) -> Result<(), GpuError> {
+        let mut read = Pixels::default();
         for first_row in (0..self.blocks.height).step_by(self.band_height as usize) {
             let end_row = self.blocks.height.min(first_row + self.band_height);
             let start = Instant::now();
@@ -41,12 +44,16 @@ impl Job<'_> {
             let flow = self.trace_band(first_row, end_row, pace, progress, &mut frame.rays)?;
             let traced = Instant::now();
             let pixels = u64::from(self.blocks.width) * u64::from(end_row - first_row);
-            self.film.read(self.context, pixels, &mut frame.texels, frame.aovs.as_mut())?;
+            self.film.read(self.context, pixels, &mut read)?;
             frame.times.trace += traced - start;
             frame.times.readback += traced.elapsed();
             if flow == ControlFlow::Break(()) {
                 break;
             }
+        }
+        frame.texels = read.texels;
+        if let Some(aovs) = &mut frame.aovs {
+            *aovs = read.aovs;
         }
         Ok(())
     }
@@ -72,17 +79,14 @@ impl Job<'_> {
     }
 
     /// Trace one tile in as many submissions as its invocations need; returns what the longest one took.
-    fn trace_tile(&self, tile: Tile, rays: &mut RayCounts) -> Result<Duration, GpuError> {
+    pub(super) fn trace_tile(&self, tile: Tile, rays: &mut RayCounts) -> Result<Duration, GpuError> {
         let mut longest = Duration::ZERO;
         let mut resume = 0;
         loop {
             let start = Instant::now();
             let head = self.submit(Tile { resume, ..tile })?;
             longest = longest.max(start.elapsed());
-            rays.primary += u64::from(head.primary);
-            rays.reflection += u64::from(head.reflection);
-            rays.refraction += u64::from(head.refraction);
-            rays.shadow += u64::from(head.shadow);
+            rays.add([head.primary, head.reflection, head.refraction, head.shadow].map(u64::from));
             if head.paused == 0 {
                 return Ok(longest);
             }
@@ -90,21 +94,25 @@ impl Job<'_> {
         }
     }
 
-    /// Trace a tile until its invocations are done or rest, and see that all of them ran and no loop was cut short.
+    /// Trace a tile until its invocations are done or rest.
     pub(super) fn submit(&self, tile: Tile) -> Result<FilmHead, GpuError> {
-        self.film.set_tile(
-            self.context,
-            Tile {
-                step_budget: self.context.step_budget,
-                canary_rounds: CANARY_ROUNDS,
-                canary_result: Tile::canary_result(CANARY_ROUNDS),
-                ..tile
-            },
-        );
+        let tile = Tile {
+            step_budget: self.context.step_budget,
+            canary_rounds: CANARY_ROUNDS,
+            canary_result: Tile::canary_result(CANARY_ROUNDS),
+            ..tile
+        };
+        self.run(&self.pipeline, FilmHead { tile, ..FilmHead::default() })
+    }
+
+    /// Run an entry point on the head's blocks, and see that all invocations ran and no loop was cut short.
+    pub(super) fn run(&self, pipeline: &wgpu::ComputePipeline, head: FilmHead) -> Result<FilmHead, GpuError> {
+        let tile = head.tile;
+        self.film.set_head(self.context, head);
         let mut encoder = self.context.encoder();
         {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-            pass.set_pipeline(&self.pipeline);
+            pass.set_pipeline(pipeline);
             pass.set_bind_group(0, &self.group, &[]);
             pass.dispatch_workgroups(tile.block_count, 1, 1);
         }

@@ -16,6 +16,7 @@
 //! but one, with those of `scenes/opaque.toml` to 7e-7, where f32 is off by 1e-1 at an edge.
 
 mod adapters;
+mod adaptive;
 mod assemble;
 mod blocks;
 mod buffers;
@@ -23,6 +24,7 @@ mod cache;
 mod context;
 mod error;
 mod film;
+mod float_controls;
 mod job;
 mod locate;
 mod pace;
@@ -34,6 +36,7 @@ mod render;
 mod sources;
 mod spirv;
 mod testing;
+mod tree;
 mod variant;
 
 use std::path::PathBuf;
@@ -41,10 +44,12 @@ use std::path::PathBuf;
 pub use adapters::{AdapterKind, AdapterReport, adapters};
 pub use assemble::{Shader, Source, assemble};
 pub use error::GpuError;
+pub use float_controls::{FloatControls, Promises};
 pub use probe::Prober;
 pub use render::GpuRenderer;
 pub use sources::SOURCES;
 pub use spirv::write_spirv;
+pub use tree::GpuTree;
 pub use variant::Variant;
 
 /// Which adapter to take.

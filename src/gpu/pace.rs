@@ -46,6 +46,12 @@ impl Pace {
         Self { blocks, samples, most_blocks, width: width.min(most_blocks), last, units: f64::from(width) }
     }
 
+    /// Another part of the same picture: so many blocks, at what the adapter does by now.
+    pub(super) fn again(&self, blocks: u32, samples: u32) -> Self {
+        let last = Tile { sample_count: samples, ..Tile::default() };
+        Self { blocks, samples, last, ..*self }
+    }
+
     /// The next tile to submit, of the blocks before `end`; none when those are done.
     pub(super) fn next(&mut self, end: u32) -> Option<Tile> {
         let first_sample = self.last.first_sample + self.last.sample_count;

@@ -45,16 +45,20 @@ pub(super) struct Compiled {
     pub(super) pipeline: wgpu::ComputePipeline,
     /// Bytes before the texels of the film; 0 for a shader without film.
     pub(super) texels_at: u64,
+    /// Bytes before the recorded tree; 0 for a shader without.
+    pub(super) tree_at: u64,
 }
 
-/// The offset of the texels in the shader's own record of the film: it depends on the variant's stacks.
-fn texels_at(module: &naga::Module) -> u64 {
+/// The offset of a part of the film in the shader's own record of it, which depends on the variant; 0 for none.
+fn film_offset(module: &naga::Module, part: &str) -> u64 {
     let film = module.types.iter().find(|(_, kind)| kind.name.as_deref() == Some("Film"));
-    let texels = film.and_then(|(_, kind)| match &kind.inner {
-        naga::TypeInner::Struct { members, .. } => members.last(),
+    let member = film.and_then(|(_, kind)| match &kind.inner {
+        naga::TypeInner::Struct { members, .. } => {
+            members.iter().find(|member| member.name.as_deref() == Some(part))
+        }
         _ => None,
     });
-    texels.map_or(0, |member| u64::from(member.offset))
+    member.map_or(0, |member| u64::from(member.offset))
 }
 
 /// Assemble and compile one entry point.
@@ -97,14 +101,15 @@ pub(super) fn compile(
         }
     }
     context.check()?;
-    Ok(Compiled { pipeline, texels_at: texels_at(&shader.module) })
+    let at = |name| film_offset(&shader.module, name);
+    Ok(Compiled { pipeline, texels_at: at("texels"), tree_at: at("tree") })
 }
 
 /// Hand the shader to the driver: decorated and as it is if strict, else through wgpu without run-time checks.
 fn module(context: &Context, shader: &Shader, variant: &Variant) -> Result<wgpu::ShaderModule, GpuError> {
     match variant.float {
         Float::Strict => {
-            let words = write_spirv(shader, variant)?;
+            let words = write_spirv(shader, variant, &context.adapter.promises)?;
             let entry_points: Vec<_> = shader.module.entry_points.iter().map(entry_point).collect();
             let descriptor = wgpu::ShaderModuleDescriptorPassthrough {
                 label: Some("strict"),
@@ -149,7 +154,8 @@ mod tests {
         for precision in [Precision::F32, Precision::F64] {
             for stack_size in [2, 18, 66] {
                 let variant = Variant { precision, stack_size, effects: EffectSet::ALL, ..PLAIN };
-                let bytes = texels_at(&assemble(SOURCES, "render", "render", &variant).unwrap().module);
+                let module = assemble(SOURCES, "render", "render", &variant).unwrap().module;
+                let bytes = film_offset(&module, "texels");
                 assert!((8 << 20..33 << 20).contains(&bytes), "{variant:?}: {bytes}");
             }
         }

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::context::Context;
 use super::pipeline::{Compiled, compile};
-use super::{GpuError, SOURCES, Variant};
+use super::{GpuError, Source, Variant};
 
 /// File and name of the entry point.
 const ENTRY: (&str, &str) = ("render", "render");
@@ -15,12 +15,17 @@ const ENTRY: (&str, &str) = ("render", "render");
 pub(super) struct Pipelines {
     context: Context,
     layout: wgpu::BindGroupLayout,
+    sources: &'static [Source<'static>],
     compiled: Arc<Mutex<HashMap<Variant, Compiled>>>,
 }
 
 impl Pipelines {
-    pub(super) fn new(context: &Context, layout: &wgpu::BindGroupLayout) -> Self {
-        Self { context: context.clone(), layout: layout.clone(), compiled: Arc::default() }
+    pub(super) fn new(
+        context: &Context,
+        layout: &wgpu::BindGroupLayout,
+        sources: &'static [Source<'static>],
+    ) -> Self {
+        Self { context: context.clone(), layout: layout.clone(), sources, compiled: Arc::default() }
     }
 
     /// The variant's pipeline if it is compiled.
@@ -34,7 +39,7 @@ impl Pipelines {
         if let Some(pipeline) = self.get(variant) {
             return Ok(pipeline);
         }
-        let pipeline = compile(&self.context, &self.layout, SOURCES, ENTRY, variant)?;
+        let pipeline = compile(&self.context, &self.layout, self.sources, ENTRY, variant)?;
         self.context.pipeline_cache.save();
         let mut compiled = self.compiled.lock().unwrap_or_else(PoisonError::into_inner);
         Ok(compiled.entry(*variant).or_insert(pipeline).clone())

@@ -11,9 +11,12 @@
 //! Invocation `id.x` owns record `first + id.x`, if that is below `end`: the `stride` words from `record · stride` on. It
 //! reads its inputs there and overwrites them with its results.
 
+use std::collections::HashMap;
+
 use super::assemble::Source;
 use super::buffers::SceneBuffers;
 use super::context::Context;
+use super::pipeline::Compiled;
 use super::{AdapterReport, GpuError, GpuOptions, Variant, pipeline};
 use crate::layout::constants::PROBE_GROUP;
 use crate::layout::{FlatScene, View};
@@ -23,28 +26,46 @@ const DISPATCH: u32 = 1 << 16;
 /// Bytes before the words: which records a dispatch works on.
 const HEAD: u64 = 16;
 
-/// A scene on an adapter, for probes.
+/// A scene on an adapter, for probes. What was compiled once is kept, over scenes too.
 pub struct Prober {
     context: Context,
+    sources: &'static [Source<'static>],
     scene: SceneBuffers,
+    /// By file, entry point and variant.
+    pipelines: HashMap<(String, String, Variant), Compiled>,
 }
 
 impl Prober {
-    /// Open an adapter and upload the scene and view that probes see.
+    /// Open an adapter, to run probes of these shader files on this scene and view.
     ///
     /// # Errors
     /// As [`GpuRenderer::new`](super::GpuRenderer::new).
-    pub fn new(scene: &FlatScene, view: &View, options: &GpuOptions) -> Result<Self, GpuError> {
+    pub fn new(
+        scene: &FlatScene,
+        view: &View,
+        options: &GpuOptions,
+        sources: &'static [Source<'static>],
+    ) -> Result<Self, GpuError> {
         let context = Context::new(options)?;
-        let scene = SceneBuffers::new(&context, scene)?;
-        scene.set_view(&context, view);
-        Ok(Self { context, scene })
+        let buffers = SceneBuffers::new(&context, scene)?;
+        buffers.set_view(&context, view);
+        Ok(Self { context, sources, scene: buffers, pipelines: HashMap::new() })
     }
 
     /// The adapter that runs.
     #[must_use]
     pub fn adapter(&self) -> &AdapterReport {
         &self.context.adapter
+    }
+
+    /// Put another scene and view in place of those that probes see.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`], [`GpuError::OutOfMemory`], [`GpuError::DeviceLost`].
+    pub fn show(&mut self, scene: &FlatScene, view: &View) -> Result<(), GpuError> {
+        self.scene = SceneBuffers::new(&self.context, scene)?;
+        self.scene.set_view(&self.context, view);
+        Ok(())
     }
 
     /// Run the entry point `entry` of the file `root` over records of `stride` words, in place.
@@ -55,15 +76,14 @@ impl Prober {
     /// [`GpuError::Shader`], [`GpuError::NoF64`], [`GpuError::Refused`], [`GpuError::TooLarge`] for the records,
     /// [`GpuError::OutOfMemory`], [`GpuError::DeviceLost`].
     pub fn run(
-        &self,
-        sources: &[Source<'_>],
+        &mut self,
         (root, entry): (&str, &str),
         variant: &Variant,
         stride: usize,
         records: &mut [u32],
     ) -> Result<(), GpuError> {
+        let compiled = self.pipeline((root, entry), variant)?;
         let context = &self.context;
-        let compiled = pipeline::compile(context, &self.scene.layout, sources, (root, entry), variant)?;
         let size = size_of_val(records) as u64;
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
         let buffer = context.buffer("the records", HEAD + size.max(4), usage)?;
@@ -86,10 +106,21 @@ impl Prober {
             context.wait()?;
         }
         let mut at = 0;
-        context.read(&buffer, HEAD..HEAD + size, |bytes| {
+        context.read(&buffer, HEAD..HEAD + size, size_of::<u32>() as u64, |bytes| {
             let words: &[u32] = bytemuck::cast_slice(bytes);
             records[at..at + words.len()].copy_from_slice(words);
             at += words.len();
         })
+    }
+    /// The pipeline of an entry point, compiled when it is first asked for.
+    fn pipeline(&mut self, (root, entry): (&str, &str), variant: &Variant) -> Result<Compiled, GpuError> {
+        let key = (root.to_owned(), entry.to_owned(), *variant);
+        if let Some(compiled) = self.pipelines.get(&key) {
+            return Ok(compiled.clone());
+        }
+        let layout = &self.scene.layout;
+        let compiled = pipeline::compile(&self.context, layout, self.sources, (root, entry), variant)?;
+        self.pipelines.insert(key, compiled.clone());
+        Ok(compiled)
     }
 }

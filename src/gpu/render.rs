@@ -1,33 +1,38 @@
 //! A scene on an adapter, and the pictures that are traced of it.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
+use super::adaptive::Sifter;
 use super::blocks::Blocks;
 use super::buffers::SceneBuffers;
 use super::context::Context;
-use super::film::FilmBuffer;
+use super::film::{FilmBuffer, PixelLayout};
 use super::job::Job;
 use super::pace::Pace;
 use super::pipelines::Pipelines;
-use super::{AdapterReport, GpuError, GpuOptions, Variant};
-use crate::film::{Frame, Progress, RayCounts, Renderer, TraceTimes};
+use super::{AdapterReport, GpuError, GpuOptions, SOURCES, Source, Variant};
+use crate::film::{Frame, Progress, RayCounts, Renderer, SampleCounts, TraceTimes};
+use crate::layout::constants::BLOCK;
 use crate::layout::{FlatScene, Float, Plan, Scan, Settings, Tile, View};
 
 /// A scene on an adapter.
 pub struct GpuRenderer {
-    context: Context,
-    scene: SceneBuffers,
+    pub(super) context: Context,
+    pub(super) sources: &'static [Source<'static>],
+    pub(super) scene: SceneBuffers,
+    /// Of the deepest tree so far: its stack serves the others.
     bvh_depth: u32,
     /// What the scene calls for.
     scan: Scan,
     /// What the upload took, until a frame has told it.
     upload: Duration,
     pipelines: Pipelines,
+    pub(super) sifters: HashMap<Variant, Sifter>,
     /// Variants that have been dispatched.
     warm: HashSet<Variant>,
-    film: Option<FilmBuffer>,
+    pub(super) film: Option<FilmBuffer>,
 }
 
 impl GpuRenderer {
@@ -37,17 +42,31 @@ impl GpuRenderer {
     /// [`GpuError::NoAdapter`], [`GpuError::TooLarge`] (checked before anything is uploaded),
     /// [`GpuError::Refused`], [`GpuError::OutOfMemory`], [`GpuError::DeviceLost`].
     pub fn new(scene: &FlatScene, options: &GpuOptions) -> Result<Self, GpuError> {
+        Self::with_sources(scene, options, SOURCES)
+    }
+
+    /// The same with other shader files than the program's own: for tests that plant faults in them.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_sources(
+        scene: &FlatScene,
+        options: &GpuOptions,
+        sources: &'static [Source<'static>],
+    ) -> Result<Self, GpuError> {
         let context = Context::new(options)?;
         let start = Instant::now();
         let buffers = SceneBuffers::new(&context, scene)?;
-        let pipelines = Pipelines::new(&context, &buffers.layout);
+        let pipelines = Pipelines::new(&context, &buffers.layout, sources);
         Ok(Self {
             context,
+            sources,
             scene: buffers,
             bvh_depth: scene.bvh_depth,
             scan: Scan::of(scene),
             upload: start.elapsed(),
             pipelines,
+            sifters: HashMap::new(),
             warm: HashSet::new(),
             film: None,
         })
@@ -73,6 +92,29 @@ impl GpuRenderer {
         thread::spawn(move || pipelines.compile(&variant).map(drop))
     }
 
+    /// Put another scene in place of this one. What was compiled is kept, unless the new scene's tree is deeper.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`], [`GpuError::OutOfMemory`], [`GpuError::DeviceLost`].
+    pub fn show(&mut self, scene: &FlatScene) -> Result<(), GpuError> {
+        let start = Instant::now();
+        self.scene = SceneBuffers::new(&self.context, scene)?;
+        self.bvh_depth = self.bvh_depth.max(scene.bvh_depth);
+        self.scan = Scan::of(scene);
+        self.upload = start.elapsed();
+        Ok(())
+    }
+
+    /// Bytes of device memory that an invocation under these settings rests in: its stack, its sample and its ray.
+    ///
+    /// # Errors
+    /// As of [`Renderer::render`], where the shader is not compiled yet.
+    pub fn invocation_bytes(&mut self, settings: &Settings) -> Result<u64, GpuError> {
+        let variant = self.variant(settings);
+        let invocations = u64::from(variant.most_blocks() * BLOCK * BLOCK);
+        Ok(self.pipelines.compile(&variant)?.texels_at / invocations)
+    }
+
     /// What is simulated under these settings.
     fn plan(&self, settings: &Settings) -> Plan {
         self.scan.effects(settings).plan(settings)
@@ -80,27 +122,37 @@ impl GpuRenderer {
 
     /// The variant for these settings: fast where the adapter cannot be strict.
     fn variant(&self, settings: &Settings) -> Variant {
-        let variant = Variant::new(self.bvh_depth, settings, &self.plan(settings));
+        let variant = self.variant_of(settings, &self.plan(settings));
         let float = if self.context.adapter.strict_float { variant.float } else { Float::Fast };
         Variant { float, ..variant }
     }
 
+    /// The variant of a plan, as strict as the settings ask.
+    pub(super) fn variant_of(&self, settings: &Settings, plan: &Plan) -> Variant {
+        Variant::new(self.bvh_depth, settings, plan)
+    }
+
     /// Compile the variant, make room for the picture and take it in view.
-    fn prepare(&mut self, view: &View, variant: &Variant) -> Result<Job<'_>, GpuError> {
+    pub(super) fn prepare(&mut self, view: &View, variant: &Variant) -> Result<Job<'_>, GpuError> {
         let compiled = self.pipelines.compile(variant)?;
-        // As many rows as fit one buffer.
         let [_, _, width, height] = view.crop;
         let blocks = Blocks::new(width, height);
-        let limit = self.context.largest_binding();
-        let most_pixels = FilmBuffer::most_pixels(limit, compiled.texels_at, variant.aovs());
-        let band_height = blocks.band_height(most_pixels);
+        let layout = PixelLayout::of(variant);
+        let band_height = self.film_rows(view, variant)?;
         let pixels = u64::from(width) * u64::from(band_height);
+        let film = self.film(compiled.texels_at, pixels, layout)?;
         let is_cold = self.warm.insert(*variant);
-        let film = self.film(compiled.texels_at, pixels, variant.aovs())?;
         self.scene.set_view(&self.context, view);
         let group = self.scene.bind(&self.context, &film.buffer);
-        let job =
-            Job { context: &self.context, pipeline: compiled.pipeline, film, group, blocks, band_height };
+        let job = Job {
+            context: &self.context,
+            pipeline: compiled.pipeline,
+            film,
+            group,
+            blocks,
+            band_height,
+            tree_at: compiled.tree_at,
+        };
         if is_cold {
             // Some drivers compile at the first dispatch: have one outside the picture.
             job.submit(Tile { first_block: blocks.count(), block_count: 1, ..Tile::default() })?;
@@ -108,11 +160,20 @@ impl GpuRenderer {
         Ok(job)
     }
 
+    /// Rows of the view's crop that fit one film, in whole blocks; one row of blocks at the least.
+    pub(super) fn film_rows(&mut self, view: &View, variant: &Variant) -> Result<u32, GpuError> {
+        let compiled = self.pipelines.compile(variant)?;
+        let [_, _, width, height] = view.crop;
+        let limit = self.context.largest_binding();
+        let most_pixels = FilmBuffer::most_pixels(limit, compiled.texels_at, PixelLayout::of(variant));
+        Ok(Blocks::new(width, height).band_height(most_pixels))
+    }
+
     /// The film of the last picture if it is laid out so, else a new one.
-    fn film(&mut self, texels_at: u64, pixels: u64, aovs: bool) -> Result<FilmBuffer, GpuError> {
+    fn film(&mut self, texels_at: u64, pixels: u64, layout: PixelLayout) -> Result<FilmBuffer, GpuError> {
         let film = match self.film.take() {
-            Some(film) if film.fits(texels_at, pixels, aovs) => film,
-            _ => FilmBuffer::new(&self.context, texels_at, pixels, aovs)?,
+            Some(film) if film.fits(texels_at, pixels, layout) => film,
+            _ => FilmBuffer::new(&self.context, texels_at, pixels, layout)?,
         };
         Ok(self.film.insert(film).clone())
     }
@@ -137,6 +198,11 @@ impl Renderer for GpuRenderer {
         let upload = std::mem::take(&mut self.upload);
         let variant = self.variant(settings);
         let view = &self.plan(settings).applied_to(view);
+        if let Some(threshold) = settings.threshold().filter(|_| variant.adaptive()) {
+            let mut frame = self.render_adaptive(view, &variant, threshold, progress)?;
+            frame.times.upload = upload;
+            return Ok(frame);
+        }
         let job = self.prepare(view, &variant)?;
         let blocks = job.blocks;
         let times = TraceTimes { upload, compile: start.elapsed(), ..TraceTimes::default() };
@@ -144,6 +210,7 @@ impl Renderer for GpuRenderer {
             width: blocks.width,
             height: blocks.height,
             texels: Vec::new(),
+            samples: SampleCounts::Same(view.samples),
             aovs: variant.aovs().then(Vec::new),
             float: variant.float,
             rays: RayCounts::default(),

@@ -8,8 +8,10 @@ macro_rules! sources {
 
 /// Every file of `shaders/`, by stem.
 pub const SOURCES: &[Source<'static>] = sources! {
+    "adaptive"
     "background"
     "bindings"
+    "blocks"
     "bvh"
     "camera"
     "film"
@@ -19,11 +21,16 @@ pub const SOURCES: &[Source<'static>] = sources! {
     "math"
     "media"
     "probe"
+    "probe_arithmetic"
+    "probe_paths"
     "probe_plain"
+    "probe_rays"
     "probe_scene"
     "real"
+    "record"
     "records"
     "render"
+    "sift"
     "surface"
     "texture"
     "triangle"

@@ -1,22 +1,24 @@
 //! naga's SPIR-V, and the strict form of it: every float operation as written.
 
 use naga::back::spv;
-use spirv::{Decoration, Op};
+use spirv::{Capability, Decoration, ExecutionMode, Op};
 
 use super::assemble::Shader;
+use super::float_controls::{FloatControls, Promises};
 use super::{GpuError, Variant};
-use crate::layout::Float;
+use crate::layout::{Float, Precision};
 
 /// Words before the first instruction (SPIR-V specification, section 2.3).
 const HEADER: usize = 5;
 
-/// Write the entry point as SPIR-V for `vkCreateShaderModule`, strict where the variant is.
+/// Write the entry point as SPIR-V for `vkCreateShaderModule`, strict where the variant is: with NoContraction, and with
+/// what the device promises.
 ///
 /// Bounds are not checked: `flatten` proves every index. Loops get no bound, workgroup memory is not cleared.
 ///
 /// # Errors
 /// [`GpuError::Shader`] where naga cannot write the module.
-pub fn write_spirv(shader: &Shader, variant: &Variant) -> Result<Vec<u32>, GpuError> {
+pub fn write_spirv(shader: &Shader, variant: &Variant, promises: &Promises) -> Result<Vec<u32>, GpuError> {
     let options = spv::Options {
         // The oldest that every Vulkan takes; nothing newer is used.
         lang_version: (1, 0),
@@ -38,7 +40,7 @@ pub fn write_spirv(shader: &Shader, variant: &Variant) -> Result<Vec<u32>, GpuEr
         GpuError::Shader { file: "shaders".into(), line: 1, column: 1, message: error.to_string() }
     })?;
     Ok(match variant.float {
-        Float::Strict => forbid_contraction(&words),
+        Float::Strict => ask_for(&widths(variant, promises), &forbid_contraction(&words)),
         Float::Fast => words,
     })
 }
@@ -48,9 +50,7 @@ pub fn write_spirv(shader: &Shader, variant: &Variant) -> Result<Vec<u32>, GpuEr
 fn forbid_contraction(words: &[u32]) -> Vec<u32> {
     let mut annotations_end = None;
     let mut decorations = Vec::new();
-    let mut at = HEADER;
-    while let Some(&first) = words.get(at) {
-        let (op, length) = (Op::from_u32(first & 0xffff), (first >> 16) as usize);
+    for (op, at) in instructions(words) {
         if annotations_end.is_none() && op.is_some_and(is_behind_annotations) {
             annotations_end = Some(at);
         }
@@ -62,10 +62,78 @@ fn forbid_contraction(words: &[u32]) -> Vec<u32> {
                 Decoration::NoContraction as u32,
             ]);
         }
-        at += length.max(1);
     }
     let (before, behind) = words.split_at(annotations_end.unwrap_or(words.len()));
     [before, &decorations, behind].concat()
+}
+
+/// The widths in bits that a variant computes in, and what the device promises about each.
+fn widths(variant: &Variant, promises: &Promises) -> Vec<(u32, FloatControls)> {
+    match variant.precision {
+        Precision::F32 => vec![(32, promises.f32)],
+        Precision::F64 => vec![(32, promises.f32), (64, promises.f64)],
+    }
+}
+
+/// Declare execution modes of the extension SPV_KHR_float_controls for the first entry point, with what they need.
+fn ask_for(widths: &[(u32, FloatControls)], words: &[u32]) -> Vec<u32> {
+    let Some(entry_point) = instructions(words).find(|(op, _)| *op == Some(Op::EntryPoint)) else {
+        return words.to_vec();
+    };
+    // OpEntryPoint: its opcode, the execution model, the function.
+    let function = words[entry_point.1 + 2];
+    let (mut capabilities, mut modes) = (Vec::new(), Vec::new());
+    for &(width, controls) in widths {
+        for (promised, capability, mode) in [
+            (
+                controls.signed_zero_inf_nan,
+                Capability::SignedZeroInfNanPreserve,
+                ExecutionMode::SignedZeroInfNanPreserve,
+            ),
+            (controls.denorms, Capability::DenormPreserve, ExecutionMode::DenormPreserve),
+            (controls.round_to_nearest, Capability::RoundingModeRTE, ExecutionMode::RoundingModeRTE),
+        ] {
+            if promised {
+                capabilities.extend([2 << 16 | Op::Capability as u32, capability as u32]);
+                modes.extend([4 << 16 | Op::ExecutionMode as u32, function, mode as u32, width]);
+            }
+        }
+    }
+    if modes.is_empty() {
+        return words.to_vec();
+    }
+    // Capabilities come first, then extensions; execution modes follow the last entry point (section 2.4).
+    let end_of = |wanted: Op| {
+        let mut behind = instructions(words).skip_while(|(op, _)| *op != Some(wanted));
+        behind.find(|(op, _)| *op != Some(wanted)).map_or(words.len(), |(_, at)| at)
+    };
+    let (extensions_at, modes_at) = (end_of(Op::Capability), end_of(Op::EntryPoint));
+    let (head, rest) = words.split_at(HEADER);
+    let (own_capabilities, rest) = rest.split_at(extensions_at - HEADER);
+    let (middle, rest) = rest.split_at(modes_at - extensions_at);
+    [head, own_capabilities, &capabilities, &extension("SPV_KHR_float_controls"), middle, &modes, rest]
+        .concat()
+}
+
+/// OpExtension with a name: a string of words, zero at its end (section 2.2.1).
+fn extension(name: &str) -> Vec<u32> {
+    let mut bytes = name.as_bytes().to_vec();
+    bytes.resize((name.len() / 4 + 1) * 4, 0);
+    let text = bytes
+        .chunks_exact(4)
+        .map(|four| four.iter().rev().fold(0, |word, &byte| word << 8 | u32::from(byte)));
+    let length = bytes.len() as u32 / 4 + 1;
+    [length << 16 | Op::Extension as u32].into_iter().chain(text).collect()
+}
+
+/// The instructions of a module: opcode, and where it stands.
+fn instructions(words: &[u32]) -> impl Iterator<Item = (Option<Op>, usize)> {
+    let mut at = HEADER;
+    std::iter::from_fn(move || {
+        let (first, here) = (*words.get(at)?, at);
+        at += ((first >> 16) as usize).max(1);
+        Some((Op::from_u32(first & 0xffff), here))
+    })
 }
 
 /// The instructions that SPIR-V calls arithmetic, of those with a float result.
@@ -114,8 +182,13 @@ mod tests {
         }";
 
     fn words(float: Float) -> Vec<u32> {
+        promised(float, &Promises::default())
+    }
+
+    fn promised(float: Float, promises: &Promises) -> Vec<u32> {
         let variant = Variant { float, ..PLAIN };
-        write_spirv(&assemble(&[("sums", SUMS)], "sums", "main", &variant).unwrap(), &variant).unwrap()
+        let shader = assemble(&[("sums", SUMS)], "sums", "main", &variant).unwrap();
+        write_spirv(&shader, &variant, promises).unwrap()
     }
 
     /// Decorations with NoContraction.
@@ -136,5 +209,41 @@ mod tests {
         let (strict, fast) = (words(Float::Strict), words(Float::Fast));
         assert_eq!(strict.len(), fast.len() + 3 * 7);
         assert_eq!(strict[..HEADER], fast[..HEADER]);
+    }
+
+    const ALL: FloatControls =
+        FloatControls { signed_zero_inf_nan: true, denorms: true, round_to_nearest: true };
+
+    #[test]
+    fn strict_asks_for_what_is_promised_of_its_precision_and_fast_for_nothing() {
+        let promises = Promises { f32: ALL, f64: ALL };
+        let count = |words: &[u32], op: Op| instructions(words).filter(|(one, _)| *one == Some(op)).count();
+        let (plain, asked) = (words(Float::Strict), promised(Float::Strict, &promises));
+        assert_eq!(count(&asked, Op::ExecutionMode), count(&plain, Op::ExecutionMode) + 3);
+        assert_eq!(count(&asked, Op::Capability), count(&plain, Op::Capability) + 3);
+        assert_eq!(count(&asked, Op::Extension), count(&plain, Op::Extension) + 1);
+        assert_eq!(promised(Float::Fast, &promises), words(Float::Fast));
+    }
+
+    #[test]
+    fn modes_stand_where_the_specification_wants_them() {
+        let asked = promised(Float::Strict, &Promises { f32: ALL, f64: ALL });
+        let order = |op| match op {
+            Some(Op::Capability) => Some(0),
+            Some(Op::Extension) => Some(1),
+            Some(Op::ExtInstImport) => Some(2),
+            Some(Op::MemoryModel) => Some(3),
+            Some(Op::EntryPoint) => Some(4),
+            Some(Op::ExecutionMode) => Some(5),
+            _ => None,
+        };
+        let sections: Vec<_> = instructions(&asked).map_while(|(op, _)| order(op)).collect();
+        assert!(sections.is_sorted() && sections.contains(&5), "{sections:?}");
+    }
+
+    #[test]
+    fn an_extension_is_named_in_words_that_end_with_zero() {
+        assert_eq!(extension("abcd"), [3 << 16 | 10, 0x6463_6261, 0]);
+        assert_eq!(extension("abc"), [2 << 16 | 10, 0x0063_6261]);
     }
 }

@@ -23,10 +23,11 @@ pub(super) const PLAIN: Variant = Variant {
     precision: Precision::F32,
     float: Float::Strict,
     intersector: Intersector::Watertight,
-    effects: EffectSet::ALL.without(Effect::Aovs),
+    effects: EffectSet::ALL.without(Effect::Aovs).without(Effect::Adaptive),
     lights: Lights::Many,
     stack_size: 16,
     bvh_stack: 24,
+    tree: false,
 };
 
 /// A scene of `scenes/`, to be traced in f32 with AOVs.
@@ -51,6 +52,13 @@ impl Subject {
         Self { settings: Settings { precision, ..self.settings }, ..self }
     }
 
+    /// With at most so many samples, refined to the threshold.
+    pub(super) fn adaptive(mut self, samples: u32, threshold: f32) -> Self {
+        self.view.samples = samples;
+        self.settings = Settings { samples, adaptive: Some(threshold), ..self.settings };
+        self
+    }
+
     pub(super) fn on_cpu(&self) -> Frame {
         CpuRenderer::new(&self.scene, 0).unwrap().render(&self.view, &self.settings, &()).unwrap()
     }
@@ -65,6 +73,7 @@ pub(super) fn assert_same(a: &Frame, b: &Frame) {
     let differing = a.texels.iter().zip(&b.texels).filter(|(a, b)| a != b).count();
     assert_eq!((a.width, a.height, a.texels.len(), differing), (b.width, b.height, b.texels.len(), 0));
     assert_eq!(a.aovs, b.aovs);
+    assert_eq!(a.samples, b.samples);
     assert_eq!(a.rays, b.rays);
     assert!(a.complete && b.complete);
 }

@@ -3,8 +3,8 @@
 use crate::layout::constants::{BLOCK, ROUNDOFF_F32, ROUNDOFF_F64, SHARED, Shared};
 use crate::layout::{Effect, EffectSet, Float, Intersector, Lights, Plan, Precision, Settings};
 
-/// Bytes of a waiting ray in f32; in f64 twice as many.
-const BRANCH_BYTES: u32 = 48;
+/// Bytes of a waiting ray in f32; in f64 at most twice as many.
+const BRANCH_BYTES: u32 = 64;
 /// Waiting rays that the rest of an invocation's memory counts for: the sample and the ray in work.
 const SAMPLE_BRANCHES: u32 = 4;
 /// Bytes that the invocations of one dispatch may take.
@@ -24,7 +24,7 @@ pub struct Variant {
     /// Feature `moller_trumbore`.
     pub intersector: Intersector,
     /// A feature for each effect, under its name with `_` for `-`. With `aovs` the film holds
-    /// [`Aov`](crate::layout::Aov)s.
+    /// [`Aov`](crate::layout::Aov)s, with `adaptive` [`Statistics`](crate::layout::Statistics).
     pub effects: EffectSet,
     /// Feature `lights` where there are any, and `one_light`.
     pub lights: Lights,
@@ -33,6 +33,8 @@ pub struct Variant {
     pub stack_size: u32,
     /// Pending nodes of a traversal. Constant `BVH_STACK`.
     pub bvh_stack: u32,
+    /// Feature `tree`: the film holds the ray tree of the one pixel that is traced.
+    pub tree: bool,
 }
 
 impl Variant {
@@ -47,6 +49,7 @@ impl Variant {
             lights: plan.lights,
             stack_size: plan.waiting,
             bvh_stack: bvh_depth.saturating_sub(1).max(1),
+            tree: false,
         }
     }
 
@@ -68,12 +71,19 @@ impl Variant {
         self.effects.has(Effect::Aovs)
     }
 
+    /// Whether the film holds [`Statistics`](crate::layout::Statistics), and a list of pixels.
+    #[must_use]
+    pub fn adaptive(&self) -> bool {
+        self.effects.has(Effect::Adaptive)
+    }
+
     /// What `@if(…)` asks for, and the answers.
     pub fn features(&self) -> impl Iterator<Item = (String, bool)> {
         let bounces = self.effects.has(Effect::Reflection) || self.effects.has(Effect::Transmission);
         let own = [
             ("f64", self.precision == Precision::F64),
             ("moller_trumbore", self.intersector == Intersector::MollerTrumbore),
+            ("tree", self.tree),
             ("lights", self.lights != Lights::None),
             ("one_light", self.lights == Lights::One),
             // A surface may send a ray on; and two of them.

@@ -8,7 +8,7 @@
 //! winning triangle is ever culled.
 
 use crate::layout::Triangle;
-use crate::layout::constants::{FAR, LEAST_DIRECTION, MAX_BVH_DEPTH, NONE, SLAB_PADDING};
+use crate::layout::constants::{FAR, LEAST_DIRECTION, MAX_BVH_DEPTH, NONE, ORIGIN_PADDING, SLAB_PADDING};
 
 use super::triangle::{Shear, intersect_triangle, shear_of};
 use super::{Real, Simulation, Vec3, World};
@@ -26,6 +26,8 @@ pub struct Ray<R> {
     pub origin_hi: Vec3<R>,
     /// See `origin_hi`.
     pub origin_lo: Vec3<R>,
+    /// Primitive id of the face that it leaves, `NONE` for none: being straight, it does not meet that face again.
+    pub origin_face: u32,
     /// For the triangle test.
     pub shear: Shear<R>,
 }
@@ -56,18 +58,24 @@ pub struct Span<R> {
     pub exit: R,
 }
 
-/// Prepare a ray.
-pub fn make_ray<R: Real>(world: &World<impl Simulation>, origin: Vec3<R>, direction: Vec3<R>) -> Ray<R> {
+/// Prepare a ray that leaves the face `origin_face`, or none.
+pub fn make_ray<R: Real>(
+    world: &World<impl Simulation>,
+    origin: Vec3<R>,
+    direction: Vec3<R>,
+    origin_face: u32,
+) -> Ray<R> {
     let to_lo = (origin - Vec3::load(world.view.scene_lo)).abs();
     let to_hi = (origin - Vec3::load(world.view.scene_hi)).abs();
     let reach = to_lo.x.greatest(to_hi.x) + to_lo.y.greatest(to_hi.y) + to_lo.z.greatest(to_hi.z);
-    let delta = Vec3::splat(reach * R::of(SLAB_PADDING));
+    let delta = origin.abs() * R::of(ORIGIN_PADDING) + Vec3::splat(reach * R::of(SLAB_PADDING));
     Ray {
         origin,
         direction,
         reciprocal: direction.map(safe_reciprocal),
         origin_hi: origin + delta,
         origin_lo: origin - delta,
+        origin_face,
         shear: shear_of(direction),
     }
 }
@@ -98,6 +106,9 @@ pub fn slabs<R: Real>(ray: &Ray<R>, lo: Vec3<R>, hi: Vec3<R>) -> Span<R> {
 /// The hit on one triangle if it is nearer than `best`, or as near with a lower id; else `best`.
 pub fn nearer<R: Real>(world: &World<impl Simulation>, ray: &Ray<R>, index: u32, best: Hit<R>) -> Hit<R> {
     let tri = &world.scene.triangles[index as usize];
+    if tri.id == ray.origin_face {
+        return best;
+    }
     let Some(c) = intersect_triangle(world.intersector, ray.origin, ray.direction, &ray.shear, tri) else {
         return best;
     };

@@ -1,9 +1,9 @@
 //! Stop 7 of 7: film. Twin of `shaders/film.wgsl`.
 
 use crate::layout::constants::LEAST_NORMAL;
-use crate::layout::{Aov, Effect, Texel};
+use crate::layout::{Aov, Texel};
 
-use super::{Real, Simulation, Vec3, World};
+use super::{Real, Vec3};
 
 /// What one sample gives the film.
 #[derive(Debug, Clone, Copy)]
@@ -24,10 +24,12 @@ pub struct Sample<R> {
     pub body_hash: u32,
     /// What the primary ray met.
     pub aov: Aov,
+    /// Body that the primary ray met, or [`Attribute::NONE`](crate::layout::Attribute::NONE).
+    pub first_body: u32,
 }
 
-/// Add sample `index` to a pixel's running sums; the last one divides them by the number of samples.
-pub fn add<R: Real>(world: &World<impl Simulation>, texel: &mut Texel, sample: &Sample<R>, index: u32) {
+/// Add sample `index` to a pixel's running sums.
+pub fn add<R: Real>(texel: &mut Texel, sample: &Sample<R>, index: u32) {
     let r = sample.radiance;
     texel.radiance[0] += flush(r.x);
     texel.radiance[1] += flush(r.y);
@@ -39,14 +41,16 @@ pub fn add<R: Real>(world: &World<impl Simulation>, texel: &mut Texel, sample: &
         texel.primitive_hash = sample.primitive_hash;
         texel.body_hash = sample.body_hash;
     }
-    if world.view.samples > 1 && index + 1 == world.view.samples && world.simulates(Effect::Antialiasing) {
-        let n = world.view.samples as i32 as f32;
-        texel.radiance[0] = flush(texel.radiance[0] / n);
-        texel.radiance[1] = flush(texel.radiance[1] / n);
-        texel.radiance[2] = flush(texel.radiance[2] / n);
-        texel.dropped = flush(texel.dropped / n);
-        texel.bound = flush(texel.bound / n);
-    }
+}
+
+/// Divide a pixel's sums by its number of samples, once.
+pub fn settle(texel: &mut Texel, samples: u32) {
+    let n = samples as i32 as f32;
+    texel.radiance[0] = flush(texel.radiance[0] / n);
+    texel.radiance[1] = flush(texel.radiance[1] / n);
+    texel.radiance[2] = flush(texel.radiance[2] / n);
+    texel.dropped = flush(texel.dropped / n);
+    texel.bound = flush(texel.bound / n);
 }
 
 /// To f32, with subnormals as 0: devices differ on them.

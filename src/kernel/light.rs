@@ -57,7 +57,10 @@ pub fn direct<R: Real>(
         let mut t = Vec3::one();
         if world.simulates(Effect::Shadows) {
             result.shadow_rays += 1;
-            t = transmittance(world, origin, l, distance, Vec3::load(light.position), media);
+            // From above its plane a ray that goes up does not meet the face; one that goes down may.
+            let upwards = dot3(surface.face_normal, l) > R::ZERO;
+            let origin_face = if upwards { surface.id } else { NONE };
+            t = transmittance(world, origin, l, distance, Vec3::load(light.position), origin_face, media);
             if max3(t) <= R::ZERO {
                 continue;
             }
@@ -102,19 +105,21 @@ pub fn transmittance<R: Real>(
     l: Vec3<R>,
     distance: R,
     light: Vec3<R>,
+    origin_face: u32,
     media: u32,
 ) -> Vec3<R> {
     // Where every body is opaque one blocker decides, whichever it is.
     if world.view.transmissive_bodies == 0 || !world.simulates(Effect::TintedShadows) {
-        let blocked = occluded(world, &make_ray(world, origin, l), distance);
+        let blocked = occluded(world, &make_ray(world, origin, l, origin_face), distance);
         return if blocked { Vec3::zero() } else { Vec3::one() };
     }
     let mut result = Vec3::one();
     let mut mask = media;
     let mut start = origin;
+    let mut face = origin_face;
     let mut left = distance;
     for _ in 0..MAX_PASSES {
-        let ray = make_ray(world, start, l);
+        let ray = make_ray(world, start, l, face);
         let hit = intersect(world, &ray, left);
         let medium = current_medium(world, mask);
         if hit.id == NONE {
@@ -135,6 +140,7 @@ pub fn transmittance<R: Real>(
         }
         mask = next;
         start = spawn_behind(&surface);
+        face = surface.id;
         left = length3(light - start);
     }
     Vec3::zero()

@@ -3,6 +3,7 @@
 //! Scalar and generic over [`Real`]: in f32 it gives the bits of a strict GPU, in f64 it is the judge. Nothing here
 //! knows threads, devices or files.
 
+pub mod adaptive;
 pub mod background;
 pub mod bvh;
 pub mod camera;
@@ -13,6 +14,7 @@ pub mod material;
 pub mod math;
 pub mod media;
 pub mod real;
+pub mod record;
 pub mod surface;
 pub mod texture;
 pub mod triangle;

@@ -1,10 +1,10 @@
 //! Stop 4 of 7: surface. Twin of `shaders/surface.wgsl`.
 
-use crate::layout::constants::{NONE, SPAWN_ROUNDOFFS};
+use crate::layout::constants::{EDGE_ROUNDOFFS, MOST_EDGE_WEIGHT, NONE, SPAWN_ROUNDOFFS};
 use crate::layout::{Corner, Effect};
 
 use super::bvh::{Hit, Ray};
-use super::math::{dot3, unit3};
+use super::math::{dot3, max3, unit3};
 use super::{Real, Simulation, Vec3, World};
 
 /// A point on a face, as the ray that found it sees it.
@@ -38,15 +38,24 @@ pub fn resolve<R: Real>(world: &World<impl Simulation>, ray: &Ray<R>, hit: &Hit<
     let face = &world.scene.attributes[hit.id as usize];
     let (v0, v1, v2) = (Vec3::load(tri.v0), Vec3::load(tri.v1), Vec3::load(tri.v2));
     let b0 = R::ONE - hit.b1 - hit.b2;
-    // The point; how far rounding may put it off the face, and a leaving ray's test of this very face off the point.
+    // The point; how far rounding may put it off the face, and another face of the same plane off the point.
     let (p0, p1, p2) = (v0 * b0, v1 * hit.b1, v2 * hit.b2);
-    let point = p0 + p1 + p2;
+    let weighted = p0 + p1 + p2;
     let size = p0.abs() + p1.abs() + p2.abs();
     let extent = (v1 - v0).abs() + (v2 - v0).abs();
     let outward = Vec3::load(face.normal);
     let face_normal = if hit.front { outward } else { -outward };
-    let reach = dot3(face_normal.abs(), size) + (extent.x + extent.y + extent.z);
+    let span = max3(extent);
+    let reach = dot3(face_normal.abs(), size) + span * R::of(0.5);
     let offset = reach * (R::of(SPAWN_ROUNDOFFS) * R::of(R::ROUNDOFF));
+    // Off the edges, so that a leaving ray is on the right side of the next face as well.
+    let extents = extent.x + extent.y + extent.z;
+    let spread = (size.x + size.y + size.z + extents) / extents;
+    let margin = (spread * (R::of(EDGE_ROUNDOFFS) * R::of(R::ROUNDOFF))).least(R::of(MOST_EDGE_WEIGHT));
+    let point = weighted
+        + off_edge(weighted, v0, b0, margin)
+        + off_edge(weighted, v1, hit.b1, margin)
+        + off_edge(weighted, v2, hit.b2, margin);
     let mut surface = Surface {
         point,
         offset,
@@ -77,6 +86,12 @@ pub fn resolve<R: Real>(world: &World<impl Simulation>, ray: &Ray<R>, hit: &Hit<
             point + lift(point, v0, n0) * b0 + lift(point, v1, n1) * hit.b1 + lift(point, v2, n2) * hit.b2;
     }
     surface
+}
+
+/// What moves a point that lies on the edge opposite a corner, or nearly so, towards that corner, until the corner's
+/// weight is `margin`; nothing for others.
+pub fn off_edge<R: Real>(point: Vec3<R>, corner: Vec3<R>, weight: R, margin: R) -> Vec3<R> {
+    (corner - point) * (margin - weight).greatest(R::ZERO)
 }
 
 /// A corner's shading normal on the ray's side.

@@ -4,8 +4,9 @@
 use crate::layout::constants::{
     MAX_DEPTH, MAX_PASSES, NONE, RAY_PRIMARY, RAY_REFLECTION, RAY_REFRACTION, RAY_SHADOW,
 };
-use crate::layout::{Aov, Effect, Texel};
+use crate::layout::{Aov, Effect, Statistics, Texel};
 
+use super::adaptive::tally;
 use super::background::background;
 use super::bvh::{far, intersect, make_ray};
 use super::camera::primary_ray;
@@ -15,6 +16,7 @@ use super::light::direct;
 use super::material::{is_transmissive, scatter};
 use super::math::max3;
 use super::media::{attenuation, cross_face, current_medium};
+use super::record::{record_end, record_surface};
 use super::surface::{Surface, resolve, spawn_before, spawn_behind};
 use super::{Real, Simulation, Vec3, World};
 
@@ -33,6 +35,8 @@ pub struct Branch<R> {
     pub weight: Vec3<R>,
     /// What made it: `RAY_PRIMARY`, `RAY_REFLECTION` or `RAY_REFRACTION`.
     pub kind: u32,
+    /// Primitive id of the face that it leaves; `NONE` for the primary ray.
+    pub origin_face: u32,
 }
 
 /// How a branch ends: where it meets a surface that matters, or `found` false where it meets none.
@@ -53,6 +57,8 @@ pub struct Landing<R> {
 }
 
 /// Trace samples [first, first + count) of a pixel of the whole picture onto its texel. The AOV is that of sample 0.
+///
+/// With statistics (adaptive antialiasing) sums are left as they are, else the last of the view's samples settles them.
 pub fn trace_pixel<R: Real>(
     world: &World<impl Simulation>,
     stack: &mut Vec<Branch<R>>,
@@ -60,6 +66,7 @@ pub fn trace_pixel<R: Real>(
     samples: std::ops::Range<u32>,
     texel: &mut Texel,
     aov: &mut Aov,
+    mut statistics: Option<&mut Statistics>,
 ) -> [u32; 4] {
     let mut rays = [0; 4];
     for i in samples {
@@ -68,7 +75,16 @@ pub fn trace_pixel<R: Real>(
         let y = R::from_i32(pixel[1] as i32) + dy;
         let mut sample = start_tree(world, stack, primary_ray(world, x, y));
         trace_tree(world, stack, &mut sample);
-        film::add(world, texel, &sample, i);
+        film::add(texel, &sample, i);
+        match &mut statistics {
+            Some(statistics) => tally(statistics, film::flush3(sample.radiance), sample.first_body),
+            None => {
+                let is_last = i > 0 && i + 1 == world.view.samples;
+                if is_last && world.simulates(Effect::Antialiasing) {
+                    film::settle(texel, i + 1);
+                }
+            }
+        }
         for (sum, n) in rays.iter_mut().zip(sample.rays_by_kind) {
             *sum += n;
         }
@@ -99,6 +115,7 @@ pub fn start_tree<R: Real>(
             depth: 0,
             weight: Vec3::one(),
             kind: RAY_PRIMARY,
+            origin_face: NONE,
         },
     );
     Sample {
@@ -110,6 +127,7 @@ pub fn start_tree<R: Real>(
         primitive_hash: 0,
         body_hash: 0,
         aov: Aov { body: NONE, medium: NONE, ..Aov::default() },
+        first_body: NONE,
     }
 }
 
@@ -167,6 +185,7 @@ pub fn count_ray<R: Real>(sample: &mut Sample<R>, kind: u32) {
 /// Follow a branch through interfaces that change no medium to the first surface that matters.
 pub fn find_surface<R: Real>(world: &World<impl Simulation>, branch: &Branch<R>) -> Landing<R> {
     let mut origin = branch.origin;
+    let mut origin_face = branch.origin_face;
     let mut media = branch.media;
     let mut distance = R::ZERO;
     let mut landing = Landing {
@@ -178,7 +197,7 @@ pub fn find_surface<R: Real>(world: &World<impl Simulation>, branch: &Branch<R>)
         media_behind: media,
     };
     for _ in 0..MAX_PASSES {
-        let ray = make_ray(world, origin, branch.direction);
+        let ray = make_ray(world, origin, branch.direction, origin_face);
         let hit = intersect(world, &ray, far());
         if hit.id == NONE {
             return landing;
@@ -192,6 +211,7 @@ pub fn find_surface<R: Real>(world: &World<impl Simulation>, branch: &Branch<R>)
         }
         media = behind;
         origin = spawn_behind(&surface);
+        origin_face = surface.id;
     }
     landing.stuck = true;
     landing
@@ -204,7 +224,9 @@ pub fn see_background<R: Real>(
     branch: &Branch<R>,
     cut: bool,
 ) {
-    sample.radiance = sample.radiance + branch.weight * background(world, branch.direction);
+    let light = branch.weight * background(world, branch.direction);
+    sample.radiance = sample.radiance + light;
+    record_end(world, branch, light, cut);
     if !cut {
         sample.primitive_hash = mix_hash(sample.primitive_hash, branch.kind);
         sample.body_hash = mix_hash(sample.body_hash, branch.kind);
@@ -234,7 +256,8 @@ pub fn shade<R: Real>(
     let weight = branch.weight * attenuation(world, before, landing.distance);
     // Local light.
     let local = direct(world, surface, branch.direction, landing.media);
-    sample.radiance = sample.radiance + weight * local.radiance;
+    let light = weight * local.radiance;
+    sample.radiance = sample.radiance + light;
     sample.rays += local.shadow_rays;
     sample.rays_by_kind[RAY_SHADOW as usize] += local.shadow_rays;
     note_path(sample, branch.kind, surface, local.seen);
@@ -247,9 +270,13 @@ pub fn shade<R: Real>(
             reserved: [0; 2],
         };
     }
+    if branch.depth == 0 && world.simulates(Effect::Adaptive) {
+        sample.first_body = surface.body;
+    }
     // Children: where there are two, reflection waits.
     let mut next = None;
     let scattered = scatter(world, surface, branch.direction, before, behind);
+    record_surface(world, branch, landing, weight, light, &local, &scattered);
     if scattered.reflects {
         next = Some(Branch {
             origin: spawn_before(surface),
@@ -258,6 +285,7 @@ pub fn shade<R: Real>(
             depth: branch.depth + 1,
             weight: weight * scattered.reflection,
             kind: RAY_REFLECTION,
+            origin_face: surface.id,
         });
     }
     if scattered.transmits {
@@ -271,6 +299,7 @@ pub fn shade<R: Real>(
             depth: branch.depth + 1,
             weight: weight * scattered.transmission,
             kind: RAY_REFRACTION,
+            origin_face: surface.id,
         });
     }
     next

@@ -1,6 +1,6 @@
 //! What the shaders have as bindings and features: the flattened scene, the view and how to trace it.
 
-use crate::layout::{Effect, EffectSet, FlatScene, Intersector, View};
+use crate::layout::{Effect, EffectSet, FlatScene, Intersector, TreeNode, View};
 
 /// Which effects a kernel simulates: known as it is compiled, or asked as it runs.
 ///
@@ -10,6 +10,14 @@ use crate::layout::{Effect, EffectSet, FlatScene, Intersector, View};
 pub trait Simulation: Copy + Sync {
     /// Whether an effect is simulated.
     fn simulates(self, effect: Effect) -> bool;
+
+    /// Whether it wants to hear of every ray.
+    fn records(self) -> bool {
+        false
+    }
+
+    /// Hears of a ray, in the order of tracing.
+    fn record(self, _node: TreeNode) {}
 }
 
 impl Simulation for EffectSet {

@@ -49,6 +49,14 @@ shared! {
     BLOCK: u32 = 8;
     /// Invocations of one workgroup of a probe.
     PROBE_GROUP: u32 = 64;
+    /// Surfaces that a bent ray of the self-test may meet.
+    BEND_LIMIT: u32 = 16;
+    /// How a bent ray ended: it met nothing more.
+    BEND_FREE: u32 = 0;
+    /// It met as many surfaces as it may.
+    BEND_LIMITED: u32 = 1;
+    /// The last surface has no children.
+    BEND_ABSORBED: u32 = 2;
     /// Interfaces without effect that a ray, or interfaces of any kind that a shadow ray, may pass;
     /// one that met this many is stuck and is cut.
     MAX_PASSES: u32 = 4096;
@@ -68,8 +76,28 @@ shared! {
     RAY_REFRACTION: u32 = 2;
     /// Index of shadow rays in counts by kind.
     RAY_SHADOW: u32 = 3;
+    /// Samples that adaptive antialiasing gives to every pixel: the fewest that tell how much they vary.
+    BASE_SAMPLES: u32 = 2;
+    /// Marks pixels whose samples met several bodies first.
+    SEVERAL: u32 = u32::MAX - 1;
     /// Material index of the air.
     AIR: u32 = 0;
+    /// How a ray of a recorded tree ended: it met a surface.
+    END_SURFACE: u32 = 0;
+    /// It met nothing.
+    END_BACKGROUND: u32 = 1;
+    /// It was not traced: too deep.
+    END_DEPTH: u32 = 2;
+    /// It was not traced: too faint.
+    END_WEIGHT: u32 = 3;
+    /// It met too many interfaces without effect.
+    END_STUCK: u32 = 4;
+    /// Flag of a recorded ray's children: a reflected one.
+    CHILD_REFLECTION: u32 = 1;
+    /// Flag of a recorded ray's children: a refracted one.
+    CHILD_REFRACTION: u32 = 2;
+    /// Rays of a recorded tree that a GPU keeps: the rest is counted.
+    TREE_NODES: u32 = 65_536;
     /// Marks an absent index.
     NONE: u32 = u32::MAX;
     /// Flag in [`Attribute::other`](super::Attribute::other): the second body's outside is on the other side.
@@ -83,12 +111,22 @@ shared! {
     /// Slabs are widened by this much (2^-19) of the distance to the farthest corner of the scene's box: more
     /// than the rounding of the slab and triangle tests, so that no box misses what its triangle hits.
     SLAB_PADDING: f64 = 1.907_348_632_812_5e-6;
-    /// Rays leave a surface along its normal by this many unit roundoffs of (1) the face's coordinates weighted by the
-    /// hit's barycentrics: 7 bound the rounding of the hit point (Pharr, Jakob, Humphreys, 4th ed., section 6.8.5); and
-    /// (2) the face's extent: what the next test of this very face subtracts, shears and weights; at a grazing angle
-    /// its error in t grows as the distance to the plane along the ray does, so that a bound along the normal serves
-    /// every angle.
-    SPAWN_ROUNDOFFS: f64 = 16.0;
+    /// And by this much (2^-22) of the origin's own coordinate on each axis: four roundoffs (two where the driver may
+    /// rewrite), so that the sum of origin and padding is not rounded back below the padding far away from (0, 0, 0).
+    ORIGIN_PADDING: f64 = 2.384_185_791_015_625e-7;
+    /// A ray that leaves a face never meets that face again, at any angle, because it is told which one it is. It starts
+    /// off its plane all the same, so that the faces beside it and upon it lie on the right side: by this many unit
+    /// roundoffs of the face's coordinates, weighted by the hit's barycentrics, of which 7 bound the rounding of the hit
+    /// point (Pharr, Jakob, Humphreys, 4th ed., section 6.8.5), and half as many of the face's greatest extent: what the
+    /// test of another face in the same plane subtracts and shears.
+    SPAWN_ROUNDOFFS: f64 = 8.0;
+    /// Points keep off the edges of their face: each corner counts for this many unit roundoffs at least, times one and
+    /// the point's coordinates over the face's extent. Where two faces of a body meet, a ray that leaves one of them must
+    /// be on the right side of the other too, or it never meets it and the body is never left. 15 bound the rounding of
+    /// where it starts, as above; the rest is for faces of less height than extent.
+    EDGE_ROUNDOFFS: f64 = 128.0;
+    /// But no corner counts for more: far from the origin, where coordinates are coarser than faces.
+    MOST_EDGE_WEIGHT: f64 = 0.125;
 
     /// Weyl steps of the sample pattern, as fractions of 2^32: 1/φ₂ and 1/φ₂² of the plastic number φ₂
     /// (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences", R2).

@@ -1,6 +1,7 @@
 //! How to trace: shared by both devices.
 
 use super::EffectChoice;
+use super::constants::BASE_SAMPLES;
 
 /// Which device traces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,6 +51,9 @@ pub struct Settings {
     pub cutoff: f32,
     /// Samples per pixel, ≥ 1.
     pub samples: u32,
+    /// Adaptive antialiasing: a pixel gets more samples while one more is expected to move it by more than this, in
+    /// [0, 1], as a part of a display's range; `samples` are the most. At 0 each gets all of them.
+    pub adaptive: Option<f32>,
     /// The arithmetic.
     pub precision: Precision,
     /// What a shader compiler may do to it; the CPU is always strict.
@@ -62,6 +66,18 @@ pub struct Settings {
     pub effects: EffectChoice,
 }
 
+/// Thresholds of adaptive antialiasing below this are 0: no picture shows them, and subnormals decide nothing.
+const LEAST_THRESHOLD: f32 = 1e-6;
+
+impl Settings {
+    /// The threshold of adaptive antialiasing, where it has samples to choose.
+    #[must_use]
+    pub fn threshold(&self) -> Option<f32> {
+        let choice = self.samples > BASE_SAMPLES;
+        self.adaptive.filter(|_| choice).map(|t| if t < LEAST_THRESHOLD { 0.0 } else { t })
+    }
+}
+
 impl Default for Settings {
     /// One strict, watertight f32 sample of a tree of depth 16, cut at a ten-thousandth.
     fn default() -> Self {
@@ -69,6 +85,7 @@ impl Default for Settings {
             depth: 16,
             cutoff: 1e-4,
             samples: 1,
+            adaptive: None,
             precision: Precision::default(),
             float: Float::default(),
             intersector: Intersector::default(),

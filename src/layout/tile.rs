@@ -6,7 +6,7 @@ use bytemuck::{Pod, Zeroable};
 ///
 /// The blocks of `View::crop` are numbered row by row; one workgroup traces one block.
 #[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct Tile {
     /// Block of workgroup 0.
     pub first_block: u32,
@@ -26,6 +26,12 @@ pub struct Tile {
     pub canary_rounds: u32,
     /// What that loop finds after all rounds: [`Tile::canary_result`].
     pub canary_result: u32,
+    /// Pixels of the film's list; its entries are traced, in blocks of BLOCK², instead of the crop's blocks. 0 for none.
+    pub listed: u32,
+    /// Round of refinement, from 0.
+    pub round: u32,
+    /// [`Settings::adaptive`](super::Settings::adaptive).
+    pub threshold: f32,
 }
 
 impl Tile {
@@ -38,7 +44,7 @@ impl Tile {
 
 /// Head of the film buffer: what a dispatch is told, and what it reports.
 #[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Pod, Zeroable)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Pod, Zeroable)]
 pub struct FilmHead {
     /// What to trace.
     pub tile: Tile,
@@ -56,4 +62,6 @@ pub struct FilmHead {
     pub refraction: u32,
     /// Rays towards lights.
     pub shadow: u32,
+    /// Entries of the list of pixels to be refined; added to what it is set to.
+    pub listed: u32,
 }

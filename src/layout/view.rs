@@ -59,3 +59,34 @@ pub struct View {
     /// `FlatScene::radiance_bound` in rows of four.
     pub radiance_bound: [[f32; 4]; BOUND_ROWS as usize],
 }
+
+impl View {
+    /// The same with a crop that is larger by so many pixels on each side, as far as the picture goes.
+    #[must_use]
+    pub fn grown(&self, by: u32) -> Self {
+        let [left, top, width, height] = self.crop;
+        let [x, y] = [left, top].map(|low| low.saturating_sub(by));
+        let [right, bottom] = [(left + width + by).min(self.width), (top + height + by).min(self.height)];
+        Self { crop: [x, y, right - x, bottom - y], ..*self }
+    }
+
+    /// Where the crop lies in the larger one of `outer`.
+    #[must_use]
+    pub fn crop_within(&self, outer: &Self) -> [u32; 4] {
+        let [left, top, width, height] = self.crop;
+        [left - outer.crop[0], top - outer.crop[1], width, height]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_crop_grows_as_far_as_the_picture_goes() {
+        let view = View { width: 100, height: 50, crop: [3, 20, 80, 28], ..View::zeroed() };
+        assert_eq!(view.grown(5).crop, [0, 15, 88, 35]);
+        assert_eq!(view.grown(0).crop, view.crop);
+        assert_eq!(view.crop_within(&view.grown(5)), [3, 5, 80, 28]);
+    }
+}

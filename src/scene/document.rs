@@ -64,6 +64,7 @@ pub(super) struct RenderTable {
     pub(super) depth: Option<Whole<0, 64>>,
     pub(super) cutoff: Option<Number<Unit>>,
     pub(super) samples: Option<Whole<1, 65536>>,
+    pub(super) adaptive: Option<Number<Unit>>,
 }
 
 /// `[ambient]`: Ia is `color` × `intensity`.

@@ -13,14 +13,11 @@ pub(super) fn parse(source: &Source) -> Result<Document, SceneError> {
 fn diagnose(error: &toml::de::Error, source: &Source) -> Diagnostic {
     let (message, hint) = reword(error.message());
     let diagnostic = Diagnostic { hint, ..Diagnostic::error(message) };
-    match error.span() {
-        Some(span) => diagnostic.at(source.locate(span)),
-        None => diagnostic,
-    }
+    diagnostic.at(source.locate(error.span().unwrap_or_default()))
 }
 
 /// Complaints that speak of Rust: a part of them, what to say instead, and a hint.
-const REWORDED: [(&str, &str, &str); 5] = [
+const REWORDED: [(&str, &str, &str); 6] = [
     (
         "unit variant, expected newtype variant",
         "a shape needs its measures",
@@ -37,6 +34,7 @@ const REWORDED: [(&str, &str, &str); 5] = [
         "this table may occur several times",
         "give it double brackets, like [[light]]",
     ),
+    ("recursion limit", "tables, arrays or dotted keys are nested too deeply", "a scene needs four levels"),
     ("sequence, expected a table", "this table occurs once only", "give it single brackets, like [camera]"),
 ];
 
@@ -198,6 +196,14 @@ mod tests {
         assert!(line >= 2 && column >= 1);
         let (_, line, _, _) = fault("[camera]\neye = \n");
         assert_eq!(line, 2);
+    }
+
+    #[test]
+    fn what_is_nested_too_deeply_has_a_place() {
+        for text in [format!("a{} = 1", ".a".repeat(9999)), format!("a = {}", "[".repeat(9999))] {
+            let (message, line, ..) = fault(&text);
+            assert_eq!((message.as_str(), line), ("tables, arrays or dotted keys are nested too deeply", 1));
+        }
     }
 
     #[test]

@@ -14,8 +14,8 @@ use super::source::Source;
 use super::table::Table;
 use super::texture::Textures;
 use super::{
-    Background, Camera, Diagnostic, Model, Normals, RenderDefaults, Repeat, Scene, SceneError, camera,
-    default_view, fault, surroundings,
+    Background, Camera, Diagnostic, Limits, Model, Normals, RenderDefaults, Repeat, Scene, SceneError,
+    camera, default_view, fault, surroundings,
 };
 
 impl Scene {
@@ -36,23 +36,66 @@ impl Scene {
     /// }
     /// ```
     pub fn load(path: &Path) -> Result<Self, SceneError> {
-        let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-        match extension.as_str() {
-            "toml" => from_toml(&Source::read(path)?),
-            "obj" => from_mesh(path),
-            _ => Err(Diagnostic::error(format!("{} is not a scene", path.display()))
-                .hint("a scene is a .toml file, or a bare .obj mesh")
-                .into()),
-        }
+        Self::load_within(path, Limits::default())
+    }
+
+    /// [`Scene::load`], with the levels of built-in solids raised by `steps`, or lowered below 0: as far as
+    /// each solid's range goes. Meshes stay as they are.
+    ///
+    /// # Errors
+    /// As [`Scene::load`].
+    pub fn load_refined(path: &Path, steps: i32) -> Result<Self, SceneError> {
+        read(path, Limits::default(), steps)
+    }
+
+    /// The same within other limits.
+    ///
+    /// # Errors
+    /// As [`Scene::load`], and what is beyond the limits.
+    pub fn load_within(path: &Path, limits: Limits) -> Result<Self, SceneError> {
+        read(path, limits, 0)
+    }
+
+    /// Read a scene from text, as [`load`](Self::load) does from the `.toml` file at `path`: messages name it, and files
+    /// that the text names are relative to it.
+    ///
+    /// # Errors
+    /// As [`load`](Self::load).
+    ///
+    /// # Examples
+    /// ```
+    /// # use snellius::scene::Scene;
+    /// let text = "[[model]]\nshape = { sphere = { radius = 1 } }\nmaterial = 'glas'";
+    /// assert!(Scene::parse("ball.toml".as_ref(), text).unwrap_err().to_string().contains("glas"));
+    /// ```
+    pub fn parse(path: &Path, text: &str) -> Result<Self, SceneError> {
+        from_toml(&Source::new(path, text.to_owned()), Limits::default(), 0)
+    }
+}
+
+/// Read a scene or a bare mesh, by the path's extension.
+fn read(path: &Path, limits: Limits, refine: i32) -> Result<Scene, SceneError> {
+    let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    match extension.as_str() {
+        "toml" => from_toml(&Source::read(path)?, limits, refine),
+        "obj" => from_mesh(path, limits),
+        _ => Err(Diagnostic::error(format!("{} is not a scene", path.display()))
+            .hint("a scene is a .toml file, or a bare .obj mesh")
+            .into()),
     }
 }
 
 /// Read a scene file.
-fn from_toml(source: &Source) -> Result<Scene, SceneError> {
+fn from_toml(source: &Source, limits: Limits, refine: i32) -> Result<Scene, SceneError> {
     let document = fault::parse(source)?;
     let directory = source.path.parent().unwrap_or(Path::new(""));
-    let mut shared =
-        Shared { source, directory, materials: Materials::default(), textures: Textures::default() };
+    let mut shared = Shared {
+        source,
+        directory,
+        materials: Materials::default(),
+        textures: Textures::within(limits),
+        refine,
+    };
     let mut faults = Faults::default();
     let camera = document.camera.as_ref().map(|table| faults.keep(camera::camera(table, source)));
     let background = document
@@ -62,7 +105,7 @@ fn from_toml(source: &Source) -> Result<Scene, SceneError> {
     for (name, table) in material::in_file_order(&document) {
         faults.keep(shared.materials.define(name, table, source, directory, &mut shared.textures));
     }
-    let mut models = Models::default();
+    let mut models = Models::within(limits);
     for table in &document.model {
         faults.keep(models.define(table, &mut shared));
     }
@@ -110,6 +153,7 @@ fn render_defaults(table: &RenderTable) -> RenderDefaults {
         depth: table.depth.map_or(defaults.depth, |depth| depth.0),
         cutoff: table.cutoff.map_or(defaults.cutoff, |cutoff| cutoff.value),
         samples: table.samples.map_or(defaults.samples, |samples| samples.0),
+        adaptive: table.adaptive.map(|adaptive| adaptive.value),
     }
 }
 
@@ -126,10 +170,12 @@ fn unused_materials(document: &Document, source: &Source) -> Vec<Diagnostic> {
 }
 
 /// Read a bare mesh; frame and light it.
-fn from_mesh(path: &Path) -> Result<Scene, SceneError> {
-    let mut textures = Textures::default();
+fn from_mesh(path: &Path, limits: Limits) -> Result<Scene, SceneError> {
+    let mut textures = Textures::within(limits);
     let mut materials = Materials::default();
-    let (mesh, obj) = Models::default().read(path)?;
+    let mut models = Models::within(limits);
+    let (mesh, obj) = models.read(path)?;
+    models.count(mesh.triangles.len(), Repeat::default())?;
     let slots = materials
         .of_mesh(&obj, path, &mut textures, |materials| Ok(materials.add(default_view::material())))?;
     let model = Model {

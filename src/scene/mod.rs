@@ -10,6 +10,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec2, DVec3};
 
 mod camera;
+mod code;
 mod color;
 mod default_view;
 mod diagnostic;
@@ -19,6 +20,7 @@ mod documentation;
 mod error;
 mod fault;
 mod illumination;
+mod limits;
 mod load;
 mod material;
 mod model;
@@ -38,6 +40,7 @@ mod triple;
 pub use color::linear_from_srgb8;
 pub use diagnostic::{Diagnostic, Location, Severity};
 pub use error::SceneError;
+pub use limits::Limits;
 
 /// A validated scene: every number finite and in range, every file read and decoded.
 #[derive(Debug, Clone)]
@@ -92,11 +95,13 @@ pub struct RenderDefaults {
     pub cutoff: f64,
     /// Samples per pixel, in 1..=65536.
     pub samples: u32,
+    /// Threshold of adaptive antialiasing in [0, 1], or none: every pixel gets all samples.
+    pub adaptive: Option<f64>,
 }
 
 impl Default for RenderDefaults {
     fn default() -> Self {
-        Self { size: [1280, 720], depth: 16, cutoff: 1e-4, samples: 4 }
+        Self { size: [1280, 720], depth: 16, cutoff: 1e-4, samples: 4, adaptive: None }
     }
 }
 

@@ -14,10 +14,7 @@ use super::obj::{self, Obj};
 use super::source::Source;
 use super::table::Table;
 use super::texture::Textures;
-use super::{Diagnostic, MaterialId, Mesh, Model, Repeat, SceneError};
-
-/// The most triangles of a scene, copies included: a bound on memory, not on devices.
-const MAX_TRIANGLES: u64 = 1 << 25;
+use super::{Diagnostic, Limits, MaterialId, Mesh, Model, Repeat, SceneError};
 
 /// The models read so far.
 #[derive(Debug, Default)]
@@ -30,6 +27,7 @@ pub(super) struct Models {
     /// Models that go by each name, before numbers make them differ.
     namesakes: HashMap<String, u32>,
     triangles: u64,
+    limits: Limits,
 }
 
 /// A mesh file, read once.
@@ -46,9 +44,16 @@ pub(super) struct Shared<'a> {
     pub(super) directory: &'a Path,
     pub(super) materials: Materials,
     pub(super) textures: Textures,
+    /// Steps by which built-in solids are finer than the file says; coarser below 0.
+    pub(super) refine: i32,
 }
 
 impl Models {
+    /// None yet.
+    pub(super) fn within(limits: Limits) -> Self {
+        Self { limits, ..Self::default() }
+    }
+
     /// Add the model of a table.
     pub(super) fn define(
         &mut self,
@@ -58,9 +63,19 @@ impl Models {
         let location = scene.source.locate(table.span());
         let place = location.clone();
         let table = table.get_ref();
+        let repeat = repeat(table.repeat.as_ref(), scene.source)?;
         let (name, mesh, materials) = match (&table.mesh, &table.shape) {
-            (Some(file), None) => self.of_file(file, table, scene)?,
-            (None, Some(shape)) => self.of_shape(shape, table, scene)?,
+            (Some(file), None) => {
+                let (name, mesh, materials) = self.of_file(file, table, scene)?;
+                self.count(mesh.triangles.len(), repeat).map_err(|fault| fault.at(place.clone()))?;
+                (name, mesh, materials)
+            }
+            (None, Some(shape)) => {
+                // Before they are made: a few words ask for many.
+                let triangles = shape.get_ref().refined(scene.refine).triangles();
+                self.count(triangles, repeat).map_err(|fault| fault.at(place.clone()))?;
+                self.of_shape(shape, table, scene)?
+            }
             (Some(_), Some(shape)) => {
                 let place = scene.source.locate(shape.span());
                 return Err(Diagnostic::error("the model has both a mesh and a shape").at(place).into());
@@ -79,11 +94,10 @@ impl Models {
             priority: table.priority,
             world_from_object: transform(table),
             normals: table.normals.0,
-            repeat: repeat(table.repeat.as_ref(), scene.source)?,
+            repeat,
             location: Some(location),
         };
-        check_placed(&model).map_err(|fault| fault.at(place.clone()))?;
-        self.count(&model).map_err(|fault| fault.at(place))?;
+        check_placed(&model).map_err(|fault| fault.at(place))?;
         self.list.push(model);
         Ok(())
     }
@@ -143,7 +157,7 @@ impl Models {
         let mesh = match self.shapes.entry(scene.source.text[shape.span()].to_owned()) {
             Entry::Occupied(known) => known.get().clone(),
             Entry::Vacant(new) => {
-                let mesh = shape.get_ref().mesh().map_err(|fault| fault.at(place()))?;
+                let mesh = shape.get_ref().refined(scene.refine).mesh().map_err(|fault| fault.at(place()))?;
                 new.insert(Arc::new(mesh)).clone()
             }
         };
@@ -158,12 +172,12 @@ impl Models {
     }
 
     /// Count a model's triangles; refuse more than memory should hold.
-    fn count(&mut self, model: &Model) -> Result<(), Diagnostic> {
-        let copies = model.repeat.count.iter().map(|&count| u64::from(count)).fold(1, u64::saturating_mul);
-        self.triangles =
-            self.triangles.saturating_add(copies.saturating_mul(model.mesh.triangles.len() as u64));
-        if self.triangles > MAX_TRIANGLES {
-            let message = format!("the scene has {} triangles; the most is {MAX_TRIANGLES}", self.triangles);
+    pub(super) fn count(&mut self, triangles: usize, repeat: Repeat) -> Result<(), Diagnostic> {
+        let copies = repeat.count.iter().map(|&count| u64::from(count)).fold(1, u64::saturating_mul);
+        self.triangles = self.triangles.saturating_add(copies.saturating_mul(triangles as u64));
+        let most = self.limits.triangles;
+        if self.triangles > most {
+            let message = format!("the scene has {} triangles; the most is {most}", self.triangles);
             return Err(Diagnostic::error(message).hint("repeat it less often, or use a lower level"));
         }
         Ok(())

@@ -204,6 +204,13 @@ impl<'de, const N: usize, const MIN: u32, const MAX: u32> Deserialize<'de> for W
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Whole<const MIN: u32, const MAX: u32>(pub(super) u32);
 
+impl<const MIN: u32, const MAX: u32> Whole<MIN, MAX> {
+    /// So many steps up, or down below 0, within the range.
+    pub(super) fn stepped(self, steps: i32) -> Self {
+        Self(self.0.saturating_add_signed(steps).clamp(MIN, MAX))
+    }
+}
+
 impl<'de, const MIN: u32, const MAX: u32> Deserialize<'de> for Whole<MIN, MAX> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(WholeVisitor)

@@ -4,6 +4,7 @@
 //! index. Normals and texture coordinates have indices of their own, so that they may break along an edge.
 
 use super::document::Shape;
+use super::table::Table;
 use super::{Diagnostic, Mesh};
 
 mod builder;
@@ -24,6 +25,30 @@ impl Shape {
             Shape::Plane(_) => "plane",
             Shape::Cylinder(_) => "cylinder",
             Shape::Torus(_) => "torus",
+        }
+    }
+
+    /// The solid with its level moved by so many steps, within its range; boxes and planes have none.
+    pub(super) fn refined(mut self, steps: i32) -> Self {
+        match &mut self {
+            Shape::Sphere(Table(table)) => table.level = table.level.stepped(steps),
+            Shape::RoundedBox(Table(table)) => table.level = table.level.stepped(steps),
+            Shape::Cylinder(Table(table)) => table.level = table.level.stepped(steps),
+            Shape::Torus(Table(table)) => table.level = table.level.stepped(steps),
+            Shape::Box(_) | Shape::Plane(_) => {}
+        }
+        self
+    }
+
+    /// How many triangles its mesh has.
+    pub(super) fn triangles(&self) -> usize {
+        match self {
+            Shape::Sphere(table) => 8 << (2 * table.level.0),
+            Shape::Box(_) => 12,
+            Shape::RoundedBox(table) => 12 * ((2 << table.level.0) + 1_usize).pow(2),
+            Shape::Plane(_) => 2,
+            Shape::Cylinder(table) => 16 << table.level.0,
+            Shape::Torus(table) => 64 << (2 * table.level.0),
         }
     }
 
@@ -58,8 +83,12 @@ mod tests {
         shape: Shape,
     }
 
-    fn mesh(shape: &str) -> Result<Mesh, Diagnostic> {
-        toml::from_str::<Document>(&format!("shape = {{ {shape} }}")).unwrap().shape.mesh()
+    fn shape(shape: &str) -> Shape {
+        toml::from_str::<Document>(&format!("shape = {{ {shape} }}")).unwrap().shape
+    }
+
+    fn mesh(text: &str) -> Result<Mesh, Diagnostic> {
+        shape(text).mesh()
     }
 
     /// Signed volume by the divergence theorem.
@@ -89,6 +118,17 @@ mod tests {
         ("torus = { major = 2, minor = 0.5, level = 0 }", 64, 5.657),
         ("torus = { major = 2, minor = 0.5, level = 5 }", 65536, PI * PI),
     ];
+
+    #[test]
+    fn the_number_of_triangles_is_known_before_they_are_made() {
+        let plane = ("plane = { size = [1, 1] }", 2, 0.0);
+        for (text, triangles, _) in SOLIDS.into_iter().chain([plane]) {
+            assert_eq!(
+                (shape(text).triangles(), mesh(text).unwrap().triangles.len()),
+                (triangles, triangles)
+            );
+        }
+    }
 
     #[test]
     fn solids_are_closed_outward_and_of_the_right_volume() {
@@ -148,6 +188,17 @@ mod tests {
                 assert!(!fine || (b - a).abs().max_element() < 0.2, "{shape}");
             }
         }
+    }
+
+    #[test]
+    fn a_finer_level_has_more_triangles_and_the_range_is_kept() {
+        let triangles = |shape: &str, steps| {
+            let document: Document = toml::from_str(&format!("shape = {{ {shape} }}")).unwrap();
+            document.shape.refined(steps).mesh().unwrap().triangles.len()
+        };
+        let sphere = "sphere = { radius = 1, level = 3 }";
+        assert_eq!([-1, 0, 1, -9].map(|steps| triangles(sphere, steps)), [128, 512, 2048, 8]);
+        assert_eq!(triangles("box = { size = [1, 2, 3] }", 3), 12);
     }
 
     #[test]

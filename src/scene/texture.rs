@@ -5,19 +5,15 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
-use image::{ColorType, DynamicImage, ImageDecoder, ImageReader, Limits};
+use image::{ColorType, DynamicImage, ImageDecoder, ImageReader};
 
 use super::source::check_regular;
-use super::{Diagnostic, Pixels, Texture, TextureId};
+use super::{Diagnostic, Limits, Pixels, Texture, TextureId};
 
 /// The most pixels in a row or column.
 const MAX_SIDE: u32 = 16384;
-/// The most pixels of a picture: an 8192 × 4096 environment.
-const MAX_PIXELS: u64 = 1 << 25;
-/// The most pixels of all pictures together.
-const MAX_TOTAL_PIXELS: u64 = 4 * MAX_PIXELS;
-/// What a decoder may allocate, in bytes: two copies of such a picture in f32 RGBA.
-const MAX_ALLOCATION: u64 = 2 * 16 * MAX_PIXELS;
+/// What a decoder may allocate for a pixel, in bytes: two copies in f32 RGBA.
+const MAX_ALLOCATION: u64 = 2 * 16;
 
 /// What a picture is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,15 +31,21 @@ pub(super) struct Textures {
     pub(super) list: Vec<Texture>,
     ids: HashMap<PathBuf, TextureId>,
     pixels: u64,
+    limits: Limits,
 }
 
 impl Textures {
+    /// None yet.
+    pub(super) fn within(limits: Limits) -> Self {
+        Self { limits, ..Self::default() }
+    }
+
     /// Read a picture, or find it among those already read.
     pub(super) fn load(&mut self, path: &Path, purpose: Purpose) -> Result<TextureId, Diagnostic> {
         let id = match self.ids.get(path) {
             Some(&id) => id,
             None => {
-                let texture = read(path)?;
+                let texture = read(path, self.limits.pixels)?;
                 self.count(&texture)?;
                 let id = TextureId(self.list.len());
                 self.list.push(texture);
@@ -61,16 +63,17 @@ impl Textures {
     /// Count a picture's pixels; refuse more than memory should hold.
     fn count(&mut self, texture: &Texture) -> Result<(), Diagnostic> {
         self.pixels += u64::from(texture.width) * u64::from(texture.height);
-        if self.pixels > MAX_TOTAL_PIXELS {
-            let message = format!("the pictures have {} pixels; the most is {MAX_TOTAL_PIXELS}", self.pixels);
+        let most = self.limits.pixels.saturating_mul(4);
+        if self.pixels > most {
+            let message = format!("the pictures have {} pixels; the most is {most}", self.pixels);
             return Err(Diagnostic::error(message).hint("use smaller pictures"));
         }
         Ok(())
     }
 }
 
-/// Read a picture: PNG and JPEG as sRGB, HDR and EXR as linear radiance.
-fn read(path: &Path) -> Result<Texture, Diagnostic> {
+/// Read a picture of at most `most` pixels: PNG and JPEG as sRGB, HDR and EXR as linear radiance.
+fn read(path: &Path, most: u64) -> Result<Texture, Diagnostic> {
     check_regular(path)?;
     let broken = |error: image::ImageError| {
         Diagnostic::error(format!("cannot decode {}: {error}", path.display()))
@@ -80,11 +83,11 @@ fn read(path: &Path) -> Result<Texture, Diagnostic> {
         .map_err(|error| Diagnostic::error(format!("cannot open {}: {error}", path.display())))?;
     let reader = ImageReader::new(BufReader::new(file));
     let mut reader = reader.with_guessed_format().map_err(|error| broken(error.into()))?;
-    reader.limits(limits());
+    reader.limits(limits(most));
     let decoder = reader.into_decoder().map_err(broken)?;
     let (width, height) = decoder.dimensions();
-    if width == 0 || height == 0 || u64::from(width) * u64::from(height) > MAX_PIXELS {
-        let message = format!("{} has {width} × {height} pixels; the most is {MAX_PIXELS}", path.display());
+    if width == 0 || height == 0 || u64::from(width) * u64::from(height) > most {
+        let message = format!("{} has {width} × {height} pixels; the most is {most}", path.display());
         return Err(Diagnostic::error(message));
     }
     let decoded = DynamicImage::from_decoder(decoder).map_err(broken)?;
@@ -95,11 +98,11 @@ fn read(path: &Path) -> Result<Texture, Diagnostic> {
     Ok(Texture { path: path.into(), width, height, pixels })
 }
 
-fn limits() -> Limits {
-    let mut limits = Limits::default();
+fn limits(most: u64) -> image::Limits {
+    let mut limits = image::Limits::default();
     limits.max_image_width = Some(MAX_SIDE);
     limits.max_image_height = Some(MAX_SIDE);
-    limits.max_alloc = Some(MAX_ALLOCATION);
+    limits.max_alloc = Some(MAX_ALLOCATION.saturating_mul(most));
     limits
 }
 
@@ -121,6 +124,10 @@ fn radiance(decoded: DynamicImage, path: &Path) -> Result<Vec<[f32; 3]>, Diagnos
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+
+    fn read(path: &Path) -> Result<Texture, Diagnostic> {
+        super::read(path, Limits::default().pixels)
+    }
 
     fn picture(name: &str, image: &DynamicImage) -> (tempfile::TempDir, PathBuf) {
         let directory = tempfile::tempdir().unwrap();

@@ -31,7 +31,7 @@ fn touched(subject: &Subject) -> EffectSet {
     let mut stack = Vec::new();
     for (x, y) in (0..view.height).flat_map(|y| (0..view.width).map(move |x| (x, y))) {
         let (mut texel, mut aov) = (Texel::default(), Aov::default());
-        trace_pixel::<f32>(&world, &mut stack, [x, y], 0..view.samples, &mut texel, &mut aov);
+        trace_pixel::<f32>(&world, &mut stack, [x, y], 0..view.samples, &mut texel, &mut aov, None);
     }
     let noted = noted.into_inner();
     // The settings decide about auxiliary pictures.
@@ -50,8 +50,8 @@ fn a_general_run_touches_nothing_that_the_scan_left_out() {
         assert!(called_for.has_all(touched), "scene {number} touches {}", touched.minus(called_for));
         seen = seen.iter().chain(touched.iter()).collect();
     }
-    let textured_or_sampled =
-        EffectSet::of(&[Effect::Textures, Effect::Environment, Effect::Antialiasing, Effect::Aovs]);
+    use Effect::{Adaptive, Antialiasing, Aovs, Environment, Textures};
+    let textured_or_sampled = EffectSet::of(&[Textures, Environment, Antialiasing, Adaptive, Aovs]);
     assert_eq!(EffectSet::ALL.minus(seen), textured_or_sampled, "the scenes touch {seen}");
 }
 

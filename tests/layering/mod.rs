@@ -14,6 +14,11 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("film", &["layout"]),
     ("cpu", &["kernel", "layout", "film"]),
     ("gpu", &["layout", "film"]),
+    ("bench", &["flatten", "cpu", "gpu", "film", "layout", "scene"]),
+    ("plot", &[]),
+    ("study", &["flatten", "cpu", "gpu", "film", "layout", "scene", "plot"]),
+    ("trace", &["kernel", "gpu", "flatten", "film", "layout", "scene", "plot"]),
+    ("selftest", &["kernel", "bvh", "layout", "film", "scene", "flatten", "cpu", "gpu"]),
 ];
 
 /// Crates that a module must do without: the kernel is plain arithmetic.

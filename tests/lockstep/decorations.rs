@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use snellius::gpu::{SOURCES, Variant, assemble, write_spirv};
+use snellius::gpu::{Promises, SOURCES, Variant, assemble, write_spirv};
 use snellius::layout::Float;
 
 use super::variants;
@@ -56,7 +56,8 @@ fn float_arithmetic(words: &[u32]) -> (Vec<u32>, Vec<u32>) {
 }
 
 fn words(variant: &Variant) -> Vec<u32> {
-    write_spirv(&assemble(SOURCES, "render", "render", variant).unwrap(), variant).unwrap()
+    write_spirv(&assemble(SOURCES, "render", "render", variant).unwrap(), variant, &Promises::default())
+        .unwrap()
 }
 
 #[test]

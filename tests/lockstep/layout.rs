@@ -6,7 +6,8 @@ use bytemuck::Zeroable;
 use naga::{ArraySize, Module, Scalar, ScalarKind, StructMember, Type, TypeInner, VectorSize};
 use snellius::gpu::{SOURCES, Source, assemble};
 use snellius::layout::{
-    Aov, Attribute, Corner, FilmHead, Light, Material, Node, Texel, Tile, Triangle, View,
+    Aov, Attribute, Corner, FilmHead, Light, Material, Node, Statistics, Texel, Tile, TreeNode, Triangle,
+    View,
 };
 
 use super::planted::Planted;
@@ -56,10 +57,15 @@ fn rust_records() -> Vec<Record> {
     };
     let film_texel = Record {
         name: "FilmTexel",
-        size: size_of::<Texel>() + size_of::<Aov>(),
+        size: size_of::<Texel>() + size_of::<Aov>() + size_of::<Statistics>(),
         fields: vec![
             Field { name: "texel".into(), offset: 0, kind: "Texel".into() },
             Field { name: "aov".into(), offset: size_of::<Texel>(), kind: "Aov".into() },
+            Field {
+                name: "statistics".into(),
+                offset: size_of::<Texel>() + size_of::<Aov>(),
+                kind: "Statistics".into(),
+            },
         ],
     };
     vec![
@@ -87,6 +93,7 @@ fn rust_records() -> Vec<Record> {
         record!("Light", Light { position, inverse_square, intensity, reserved }),
         record!("Texel", Texel { radiance, dropped, bound, rays, primitive_hash, body_hash }),
         record!("Aov", Aov { normal, depth, body, medium, reserved }),
+        record!("Statistics", Statistics { sum, squares, samples, body, start, listed }),
         record!(
             "View",
             View {
@@ -129,11 +136,39 @@ fn rust_records() -> Vec<Record> {
                 resume,
                 canary_rounds,
                 canary_result,
+                listed,
+                round,
+                threshold,
             }
         ),
         record!(
             "FilmHead",
-            FilmHead { tile, done, paused, cut_short, primary, reflection, refraction, shadow }
+            FilmHead { tile, done, paused, cut_short, primary, reflection, refraction, shadow, listed }
+        ),
+        record!(
+            "TreeNode",
+            TreeNode {
+                origin,
+                kind,
+                direction,
+                depth,
+                weight,
+                end,
+                light,
+                media,
+                point,
+                id,
+                normal,
+                body,
+                arriving,
+                media_behind,
+                distance,
+                front,
+                children,
+                seen,
+                shadow_rays,
+                reserved,
+            }
         ),
         film_texel,
         frame,
@@ -142,7 +177,7 @@ fn rust_records() -> Vec<Record> {
 
 /// What differs between the records of both languages.
 fn differences(sources: &[Source<'_>]) -> Vec<String> {
-    let variant = variants::all().into_iter().find(|variant| variant.aovs()).unwrap();
+    let variant = variants::all().into_iter().find(|variant| variant.aovs() && variant.adaptive()).unwrap();
     let module = assemble(sources, "render", "render", &variant).unwrap().module;
     rust_records().iter().flat_map(|record| record_differences(record, &module)).collect()
 }

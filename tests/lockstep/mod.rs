@@ -10,7 +10,7 @@ mod decorations;
 pub(crate) mod devices;
 mod layout;
 mod pictures;
-mod planted;
+pub(crate) mod planted;
 mod probes;
 mod scene;
 mod strict;

@@ -15,6 +15,7 @@ fn settings(view: &View) -> Settings {
         depth: view.depth,
         cutoff: view.cutoff,
         samples: view.samples,
+        adaptive: None,
         precision: Precision::F32,
         float: Float::Strict,
         intersector: Intersector::Watertight,

@@ -11,10 +11,11 @@ pub(super) const PLAIN: Variant = Variant {
     precision: Precision::F32,
     float: Float::Strict,
     intersector: Intersector::Watertight,
-    effects: EffectSet::ALL.without(Effect::Aovs),
+    effects: EffectSet::ALL.without(Effect::Aovs).without(Effect::Adaptive),
     lights: Lights::Many,
     stack_size: 1,
     bvh_stack: 1,
+    tree: false,
 };
 
 /// a·b + a·c, which every compiler would rather compute as a·(b + c).
@@ -47,12 +48,13 @@ fn random_floats(count: usize) -> Vec<f32> {
 /// How many of 2^16 sums of products have other bits than the CPU's.
 fn differing_sums(options: &GpuOptions, float: Float) -> usize {
     let scene = scene::triangle();
-    let prober = Prober::new(&scene, &scene::view(&scene, 8, 8, 1), options).unwrap();
+    let sources: Vec<_> = SOURCES.iter().copied().chain([("sum", SUM_OF_PRODUCTS)]).collect();
+    let view = scene::view(&scene, 8, 8, 1);
+    let mut prober = Prober::new(&scene, &view, options, sources.leak()).unwrap();
     let inputs = random_floats(3 << 16);
     let mut records: Vec<u32> = inputs.iter().map(|x| x.to_bits()).collect();
     let variant = Variant { float, ..PLAIN };
-    let sources: Vec<_> = SOURCES.iter().copied().chain([("sum", SUM_OF_PRODUCTS)]).collect();
-    prober.run(&sources, ("sum", "probe_sum"), &variant, 3, &mut records).unwrap();
+    prober.run(("sum", "probe_sum"), &variant, 3, &mut records).unwrap();
     let expected = inputs.chunks_exact(3).map(|abc| (abc[0] * abc[1] + abc[0] * abc[2]).to_bits());
     records.chunks_exact(3).zip(expected).filter(|(record, bits)| record[0] != *bits).count()
 }

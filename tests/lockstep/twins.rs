@@ -11,12 +11,17 @@ use super::planted::Planted;
 
 /// Files on one side only, and why.
 const ALONE: &[(&str, &str)] = &[
+    ("blocks", "src/cpu numbers pixels as it likes"),
     ("bindings", "kernel::World holds what the buffers hold"),
-    ("probe", "the tests hold its twin"),
-    ("probe_plain", "the tests hold its twin"),
-    ("probe_scene", "the tests hold its twin"),
+    ("probe", "src/selftest/lockstep/record.rs is its twin"),
+    ("probe_arithmetic", "src/selftest/arithmetic.rs is its twin"),
+    ("probe_paths", "src/selftest/paths.rs is its twin"),
+    ("probe_plain", "src/selftest/lockstep/plain.rs is its twin"),
+    ("probe_rays", "src/selftest/rays.rs is its twin"),
+    ("probe_scene", "src/selftest/lockstep/scene.rs is its twin"),
     ("records", "src/layout holds the records"),
     ("render", "the entry point: src/cpu is its twin"),
+    ("sift", "the entry points between rounds: src/cpu is their twin"),
     ("vector", "WGSL has vectors"),
     ("world", "shaders/bindings is its twin"),
     ("mod", "lists the files"),

@@ -1,12 +1,12 @@
 //! Every variant of the shaders assembles and validates, with no device at hand.
 
-use snellius::gpu::{GpuError, SOURCES, Variant, assemble, write_spirv};
+use snellius::gpu::{GpuError, Promises, SOURCES, Variant, assemble, write_spirv};
 use snellius::layout::{EffectSet, Float, Intersector, Lights, Precision};
 
 use crate::effects::covering::covering;
 
 /// Variants in which any two effects are on and off in every combination that there is, first the general one; with
-/// each precision, intersector, number of lights, and with small and large stacks.
+/// each precision, intersector, number of lights, and with small and large stacks. The general one records its tree.
 pub(super) fn all() -> Vec<Variant> {
     let sets = [EffectSet::ALL, EffectSet::NONE].into_iter().chain(covering(EffectSet::NONE));
     let mut variants = Vec::new();
@@ -23,6 +23,7 @@ pub(super) fn all() -> Vec<Variant> {
                 lights: lights[index / 2 % 3],
                 stack_size: sizes[index % 3].0,
                 bvh_stack: sizes[index % 3].1,
+                tree: effects == EffectSet::ALL,
             });
         }
     }
@@ -32,11 +33,25 @@ pub(super) fn all() -> Vec<Variant> {
 #[test]
 fn every_variant_validates_and_is_written_as_spirv() {
     for variant in all() {
-        let shader = assemble(SOURCES, "render", "render", &variant)
-            .unwrap_or_else(|error| panic!("{variant:?}: {error}"));
-        for float in [Float::Strict, Float::Fast] {
-            let words = write_spirv(&shader, &Variant { float, ..variant });
-            assert!(words.is_ok_and(|words| words.len() > 1000), "{variant:?}");
+        let between: &[_] = if variant.adaptive() { &["sift", "settle_film"] } else { &[] };
+        let between = between.iter().map(|entry| ("sift", *entry));
+        for (root, entry) in [("render", "render")].into_iter().chain(between) {
+            let shader = assemble(SOURCES, root, entry, &variant)
+                .unwrap_or_else(|error| panic!("{entry}, {variant:?}: {error}"));
+            for float in [Float::Strict, Float::Fast] {
+                let words = write_spirv(&shader, &Variant { float, ..variant }, &Promises::default());
+                assert!(words.is_ok_and(|words| words.len() > 500), "{entry}, {variant:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn without_refinement_the_shader_knows_nothing_of_it() {
+    for variant in all().into_iter().filter(|variant| !variant.adaptive()) {
+        let wgsl = assemble(SOURCES, "render", "render", &variant).unwrap().wgsl;
+        for word in ["Statistics", "tally", "slot_in_list", "first_body"] {
+            assert!(!wgsl.contains(word), "{word}");
         }
     }
 }

@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 
 use super::super::device::DeviceArgs;
-use super::super::values::{AovFile, Crop, ProgressStyle, Size, effect_choice, number_in, whole_in};
+use super::super::values::{
+    AovFile, Crop, ErrorMetric, ProgressStyle, Size, effect_choice, number_in, whole_in,
+};
 use crate::film::{BitDepth, Tone};
 use crate::layout::constants::MAX_DEPTH;
 use crate::layout::{EffectChoice, Float, Intersector, Precision};
@@ -11,15 +13,17 @@ use crate::layout::{EffectChoice, Float, Intersector, Precision};
 /// Render a scene to a picture
 ///
 /// The whole tree of reflected and refracted rays is traced. The scene file's [render] table holds the
-/// defaults of --size, --depth, --cutoff and --samples.
+/// defaults of --size, --depth, --cutoff, --samples and --adaptive.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   snellius render scenes/ice.toml -o ice.png
   snellius render scenes/ice.toml -o ice.exr --backend cpu --size 640x480 --samples 16
+  snellius render scenes/ice.toml -o ice.png --samples 64 --adaptive 0.01
   snellius render scenes/ice.toml -o - --crop 600,300,64,64 > detail.png
   snellius render scenes/ice.toml --aov depth=depth.exr --aov rays=rays.png
   snellius render scenes/ice.toml -o ice.png --json > ice.json
+  snellius render scenes/whitted.toml -o whitted.png --error 0.002
   snellius render scenes/ice.toml -o plain.png --effects reflection,transmission,environment
 
 Ctrl-C stops the trace, writes what is finished (the rest is black) and exits with 130.
@@ -42,15 +46,31 @@ pub(in crate::cli) struct RenderArgs {
     /// Samples per pixel, 1 to 65536 [default: the scene's, else 4]
     #[arg(long, value_name = "N", value_parser = |text: &str| whole_in(text, 1, 65536))]
     pub(super) samples: Option<u32>,
+    /// Give a pixel more samples, up to --samples, only while one more is expected to move it by more than this part of
+    /// the display's range, 0 to 1: 0.01 is good, 0.03 fast, 0 the same as without [default: the scene's, else off]
+    #[arg(long, value_name = "T", value_parser = |text: &str| number_in(text, 0.0, 1.0))]
+    pub(super) adaptive: Option<f64>,
     /// Effects to simulate: auto for those that the scene calls for, all (the same picture, more slowly), none, or a
     /// list of names with commas, as `check` prints them; a list brings what its effects need
     #[arg(long, value_name = "LIST", default_value = "auto", value_parser = effect_choice)]
     pub(super) effects: EffectChoice,
+    /// Choose depth, cut-off and precision: the cheapest that keep this error against the whole tree in f64 of the
+    /// same samples, in linear RGB clamped to [0, 1]
+    #[arg(long, value_name = "E", conflicts_with_all = ["depth", "cutoff", "time"], help_heading = "Budget",
+        value_parser = |text: &str| number_in(text, 0.0, 1.0))]
+    pub(super) error: Option<f64>,
+    /// What --error limits: the root mean square, the greatest error, or the mean error that a person sees
+    #[arg(long, value_name = "METRIC", default_value = "rmse", requires = "error", help_heading = "Budget")]
+    pub(super) metric: ErrorMetric,
+    /// Choose depth, cut-off and precision: the most accurate that trace in so many milliseconds
+    #[arg(long, value_name = "MS", conflicts_with_all = ["depth", "cutoff"], help_heading = "Budget",
+        value_parser = |text: &str| number_in(text, 1.0, 1e9))]
+    pub(super) time: Option<f64>,
     /// Trace only this part of the picture: left, top, width and height in pixels
     #[arg(long, value_name = "X,Y,W,H")]
     pub(super) crop: Option<Crop>,
     /// Write what else is known of each pixel: exactly to .exr, in false colours to .png; may be repeated.
-    /// Names: depth, normal, body, medium, rays, dropped, bound, primitive-hash, body-hash
+    /// Names: depth, normal, body, medium, rays, samples, dropped, bound, primitive-hash, body-hash
     #[arg(long, value_name = "NAME=PATH")]
     pub(super) aov: Vec<AovFile>,
     /// Tone curve of PNG files
@@ -78,14 +98,14 @@ pub(in crate::cli) struct RenderArgs {
 /// Flags that choose how rays are traced.
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Arithmetic")]
-pub(super) struct ArithmeticArgs {
+pub(in crate::cli) struct ArithmeticArgs {
     /// Arithmetic of the trace
     #[arg(long, value_name = "BITS", default_value = "f32")]
-    pub(super) precision: Precision,
+    pub(in crate::cli) precision: Precision,
     /// What a shader compiler may do to arithmetic; the CPU is always strict
     #[arg(long, value_name = "MODE", default_value = "strict")]
-    pub(super) float: Float,
+    pub(in crate::cli) float: Float,
     /// Test of a ray against a triangle
     #[arg(long, value_name = "TEST", default_value = "watertight")]
-    pub(super) intersector: Intersector,
+    pub(in crate::cli) intersector: Intersector,
 }

@@ -1,6 +1,7 @@
 //! What `snellius render` is to do, once its flags are checked against each other.
 
 use std::path::PathBuf;
+use std::time::Duration;
 
 use super::super::CliError;
 use super::super::device::Choice;
@@ -10,6 +11,7 @@ use super::export::PngOptions;
 use crate::film::{AovKind, Development, Format, Output};
 use crate::layout::{EffectChoice, Float, Intersector, Precision, Settings};
 use crate::scene::RenderDefaults;
+use crate::study::Goal;
 
 /// What `render` is to do, as far as the flags tell; the scene settles the rest.
 pub(super) struct RenderConfig {
@@ -23,8 +25,11 @@ pub(super) struct RenderConfig {
     pub(super) depth: Option<u32>,
     pub(super) cutoff: Option<f64>,
     pub(super) samples: Option<u32>,
+    pub(super) adaptive: Option<f64>,
     pub(super) effects: EffectChoice,
     pub(super) intersector: Intersector,
+    /// What depth, cut-off and precision are to be chosen for.
+    pub(super) goal: Option<Goal>,
     pub(super) crop: Option<Crop>,
     pub(super) png: PngOptions,
     pub(super) json: bool,
@@ -39,6 +44,9 @@ impl RenderConfig {
         let png = PngOptions { development, bits: args.bits };
         check_outputs(output.iter().chain(aovs.iter().map(|(_, output)| output)), args.json)?;
         check_png_options(output.as_ref(), png)?;
+        let metric = args.metric.into();
+        let goal = args.error.map(|limit| Goal::Error { limit, metric });
+        let goal = goal.or_else(|| args.time.map(|ms| Goal::Time(Duration::from_secs_f64(ms / 1e3))));
         Ok(Self {
             scene: args.scene,
             output,
@@ -50,8 +58,10 @@ impl RenderConfig {
             depth: args.depth,
             cutoff: args.cutoff,
             samples: args.samples,
+            adaptive: args.adaptive,
             effects: args.effects,
             intersector: args.arithmetic.intersector,
+            goal,
             crop: args.crop,
             png,
             json: args.json,
@@ -66,6 +76,7 @@ impl RenderConfig {
             depth: self.depth.unwrap_or(defaults.depth),
             cutoff: self.cutoff.unwrap_or(defaults.cutoff),
             samples: self.samples.unwrap_or(defaults.samples),
+            adaptive: self.adaptive.or(defaults.adaptive),
         }
     }
 
@@ -74,6 +85,7 @@ impl RenderConfig {
             depth: render.depth,
             cutoff: render.cutoff as f32,
             samples: render.samples,
+            adaptive: render.adaptive.map(|threshold| threshold as f32),
             precision: self.precision,
             float: self.float,
             intersector: self.intersector,
@@ -153,11 +165,13 @@ mod tests {
 
     #[test]
     fn flags_override_the_scene_and_absent_flags_do_not() {
-        let scene = RenderDefaults { size: [10, 20], depth: 3, cutoff: 0.5, samples: 7 };
+        let scene = RenderDefaults { size: [10, 20], depth: 3, cutoff: 0.5, samples: 7, adaptive: Some(0.5) };
         let untouched = config("a.toml -o a.png").unwrap();
         assert_eq!(untouched.overridden(&scene), scene);
-        let overridden = config("a.toml -o a.png --size 64x32 --depth 0 --cutoff 0 --samples 1").unwrap();
-        let expected = RenderDefaults { size: [64, 32], depth: 0, cutoff: 0.0, samples: 1 };
+        let overridden =
+            config("a.toml -o a.png --size 64x32 --depth 0 --cutoff 0 --samples 1 --adaptive 0").unwrap();
+        let expected =
+            RenderDefaults { size: [64, 32], depth: 0, cutoff: 0.0, samples: 1, adaptive: Some(0.0) };
         assert_eq!(overridden.overridden(&scene), expected);
     }
 
@@ -210,6 +224,8 @@ mod tests {
             "--cutoff 2",
             "--cutoff NaN",
             "--samples 0",
+            "--adaptive 1.5",
+            "--adaptive NaN",
             "--bits 9",
             "--size 0x4",
             "--threads 0",

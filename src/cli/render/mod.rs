@@ -3,7 +3,7 @@
 mod args;
 mod config;
 mod export;
-mod progress;
+mod goal;
 mod report;
 
 use std::time::{Duration, Instant};
@@ -11,15 +11,16 @@ use std::time::{Duration, Instant};
 use super::console::{Console, print_json};
 use super::device::Device;
 use super::prepare::Prepared;
+use super::progress::RenderProgress;
 use super::values::{Size, name_of};
 use super::{CliError, Outcome};
 use crate::film::{Frame, Metadata, Renderer, Summary};
 use crate::flatten;
+use crate::layout::constants::BASE_SAMPLES;
 use crate::layout::{EffectSet, Effects, Settings};
 use crate::scene::{Diagnostic, RenderDefaults};
-pub(super) use args::RenderArgs;
+pub(super) use args::{ArithmeticArgs, RenderArgs};
 use config::RenderConfig;
-use progress::RenderProgress;
 use report::{RenderReport, Times};
 
 pub(super) fn run(args: RenderArgs, console: Console) -> Result<Outcome, CliError> {
@@ -28,14 +29,23 @@ pub(super) fn run(args: RenderArgs, console: Console) -> Result<Outcome, CliErro
     let prepared = Prepared::new(&config.scene)?;
     prepared.warnings().for_each(|warning| console.warn_of(warning));
     let (scene, flat) = (&prepared.scene, &prepared.flat.scene);
-    let render = config.overridden(&scene.render);
-    let settings = config.settings(&render);
+    let mut render = config.overridden(&scene.render);
+    let mut settings = config.settings(&render);
     let crop = config.crop(render.size)?;
-    let view = flatten::view(&scene.camera, flat, render.size, crop, &settings);
     let effects = Effects::of(flat, &settings);
     let simulated = effects.plan(&settings).effects;
     warn_of_lacking(&effects, simulated, console);
     let mut device = config.device.clone().settle(config.precision, console).open(flat)?;
+    let chosen = match config.goal {
+        None => None,
+        Some(goal) => {
+            let chosen = goal::choose(goal, &mut device, &prepared, render.size, settings, console)?;
+            settings = chosen.settings;
+            (render.depth, render.cutoff) = (settings.depth, f64::from(settings.cutoff));
+            Some(chosen)
+        }
+    };
+    let view = flatten::view(&scene.camera, flat, render.size, crop, &settings);
     let frame = {
         let progress = RenderProgress::start(config.progress, console);
         device.render(&view, &settings, &progress)?
@@ -55,6 +65,12 @@ pub(super) fn run(args: RenderArgs, console: Console) -> Result<Outcome, CliErro
         print_json(&job.report(times))?;
     }
     job.summarise(times, console);
+    if let Some(chosen) = &chosen {
+        console.note(goal::guarantee(&frame));
+        if !chosen.meets {
+            return Ok(Outcome::Failed);
+        }
+    }
     Ok(if frame.complete { Outcome::Done } else { Outcome::Interrupted })
 }
 
@@ -111,19 +127,20 @@ impl Job<'_> {
     }
 
     fn settings_line(&self) -> String {
-        let RenderDefaults { size, depth, cutoff, samples } = self.render;
+        let RenderDefaults { size, depth, cutoff, samples, adaptive } = self.render;
         let Settings { precision, intersector, .. } = self.settings;
         let words = [name_of(precision), name_of(self.frame.float), name_of(intersector)];
+        let adaptive = adaptive.map_or_else(String::new, |threshold| format!(", adaptive {threshold}"));
         let crop = self.config.crop.map_or_else(String::new, |crop| format!(", crop {crop}"));
         format!(
-            "{}, depth {depth}, cutoff {cutoff}, samples {samples}, {}{crop}",
+            "{}, depth {depth}, cutoff {cutoff}, samples {samples}{adaptive}, {}{crop}",
             Size(size),
             words.join(", ")
         )
     }
 
     fn report(&self, times_ms: Times) -> RenderReport {
-        let Summary { dropped, bound, .. } = Summary::of(self.frame);
+        let Summary { dropped, bound, samples, .. } = Summary::of(self.frame);
         RenderReport {
             scene: self.config.scene.display().to_string(),
             backend: name_of(self.device.backend()),
@@ -135,6 +152,8 @@ impl Job<'_> {
             depth: self.render.depth,
             cutoff: self.render.cutoff,
             samples: self.render.samples,
+            adaptive: self.render.adaptive,
+            samples_taken: samples,
             triangles: self.prepared.flat.scene.triangles.len(),
             effects: self.simulated.iter().map(|effect| effect.name().to_owned()).collect(),
             rays: self.frame.rays.into(),
@@ -147,7 +166,7 @@ impl Job<'_> {
 
     /// What a person wants to know at the end, and what may surprise.
     fn summarise(&self, times: Times, console: Console) {
-        let Summary { non_finite_pixels, dropped, bound } = Summary::of(self.frame);
+        let Summary { non_finite_pixels, dropped, bound, samples } = Summary::of(self.frame);
         if non_finite_pixels > 0 {
             console
                 .warn(format!("{non_finite_pixels} pixels are not finite; in PNG and HDR they are magenta"));
@@ -160,6 +179,12 @@ impl Job<'_> {
                 name_of(self.settings.float)
             ));
         }
+        if self.settings.adaptive.is_some() && self.settings.threshold().is_none() {
+            console.warn(format!(
+                "--adaptive has nothing to choose with --samples {}: each pixel gets {BASE_SAMPLES} at the least",
+                self.settings.samples
+            ));
+        }
         if !self.frame.complete {
             console.warn("interrupted: a part of the picture is missing");
         }
@@ -167,6 +192,9 @@ impl Job<'_> {
             console.note(format!("{output}: {}; {:.2} s", self.settings_line(), times.total / 1e3));
         }
         console.detail(times);
+        if self.settings.threshold().is_some() {
+            console.detail(format!("samples: mean {:.2}, greatest {}", samples.mean, samples.max));
+        }
         console.detail(format!(
             "weight of cut rays: mean {:.3e}, greatest {:.3e}; error of a pixel at most {:.3e}",
             dropped.mean, dropped.max, bound.max

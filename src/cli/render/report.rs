@@ -26,7 +26,12 @@ pub(super) struct RenderReport {
     pub(super) size: [u32; 2],
     pub(super) depth: u32,
     pub(super) cutoff: f64,
+    /// Samples of a pixel, at most.
     pub(super) samples: u32,
+    /// The threshold of adaptive antialiasing, if it is asked for.
+    pub(super) adaptive: Option<f64>,
+    /// Samples that the pixels have.
+    pub(super) samples_taken: MeanMax,
     pub(super) triangles: usize,
     /// Names of the effects that were simulated.
     pub(super) effects: Vec<String>,
@@ -120,6 +125,8 @@ mod tests {
             depth: 16,
             cutoff: 1e-4,
             samples: 4,
+            adaptive: None,
+            samples_taken: MeanMax::default(),
             triangles: 12,
             effects: vec!["shadows".to_owned()],
             rays: RayCounts::default().into(),
@@ -156,6 +163,8 @@ mod tests {
             "depth",
             "cutoff",
             "samples",
+            "adaptive",
+            "samples_taken",
             "triangles",
             "effects",
             "rays",
@@ -170,6 +179,7 @@ mod tests {
         let times = ["bvh", "compile", "encode", "load", "readback", "total", "trace", "upload"];
         assert_eq!(keys(&json["times_ms"]), times);
         assert_eq!(keys(&json["dropped"]), ["max", "mean"]);
+        assert_eq!(keys(&json["samples_taken"]), ["max", "mean"]);
         assert_eq!(json["cutoff"], 1e-4);
         assert_eq!(json["times_ms"]["bvh"], 2.0);
     }

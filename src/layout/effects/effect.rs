@@ -32,13 +32,15 @@ pub enum Effect {
     Falloff,
     /// More than one sample a pixel.
     Antialiasing,
+    /// More samples for some pixels than for others. Without it all have the same number.
+    Adaptive,
     /// Auxiliary pictures.
     Aovs,
 }
 
 impl Effect {
     /// All of them, in the order of tables.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Shadows,
         Self::TintedShadows,
         Self::Specular,
@@ -52,6 +54,7 @@ impl Effect {
         Self::Environment,
         Self::Falloff,
         Self::Antialiasing,
+        Self::Adaptive,
         Self::Aovs,
     ];
 
@@ -72,6 +75,7 @@ impl Effect {
             Self::Environment => "environment",
             Self::Falloff => "falloff",
             Self::Antialiasing => "antialiasing",
+            Self::Adaptive => "adaptive",
             Self::Aovs => "aovs",
         }
     }
@@ -83,6 +87,7 @@ impl Effect {
             Self::TintedShadows => &[Self::Shadows, Self::Transmission],
             Self::Absorption | Self::NestedMedia => &[Self::Transmission],
             Self::Textures => &[Self::SmoothNormals],
+            Self::Adaptive => &[Self::Antialiasing],
             _ => &[],
         }
     }

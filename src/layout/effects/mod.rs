@@ -60,7 +60,8 @@ impl Effects {
 
     /// What a kernel is made for that simulates what the settings ask for.
     ///
-    /// Auxiliary pictures are made where they are asked for, whatever the choice.
+    /// Auxiliary pictures are made where they are asked for, whatever the choice, and nothing is refined without a
+    /// threshold.
     #[must_use]
     pub fn plan(&self, settings: &Settings) -> Plan {
         let lights = match self.numbers.lights.value {
@@ -83,8 +84,13 @@ impl Effects {
                 Plan { effects, waiting, ..found }
             }
         };
-        let effects =
-            if settings.aovs { plan.effects.with(Effect::Aovs) } else { plan.effects.without(Effect::Aovs) };
+        let mut effects = plan.effects.without(Effect::Aovs);
+        if settings.aovs {
+            effects = effects.with(Effect::Aovs);
+        }
+        if settings.threshold().is_none() {
+            effects = effects.without(Effect::Adaptive);
+        }
         Plan { effects, ..plan }
     }
 }

@@ -48,6 +48,7 @@ impl Scan {
         for finding in &mut findings {
             let (on, reason) = match finding.effect {
                 Effect::Antialiasing => (settings.samples > 1, samples(settings.samples)),
+                Effect::Adaptive => adaptive(settings),
                 Effect::Aovs if settings.aovs => (true, "auxiliary pictures are asked for".to_owned()),
                 _ => continue,
             };
@@ -180,7 +181,9 @@ impl<'a> Scanner<'a> {
                     .map(|i| format!("light {} falls off with the squared distance", i + 1))
                     .ok_or("no light falls off")
             }
-            Effect::Antialiasing | Effect::Aovs => Err("no auxiliary picture is asked for"),
+            Effect::Antialiasing | Effect::Adaptive | Effect::Aovs => {
+                Err("no auxiliary picture is asked for")
+            }
         };
         found.map_err(str::to_owned)
     }
@@ -253,6 +256,17 @@ fn shines(color: [f32; 3]) -> bool {
 
 fn there_are(count: usize, noun: &str) -> String {
     if count == 1 { format!("there is 1 {noun}") } else { format!("there are {count} {noun}s") }
+}
+
+fn adaptive(settings: &Settings) -> (bool, String) {
+    let reason = match (settings.threshold(), settings.adaptive) {
+        (Some(threshold), _) => {
+            return (true, format!("pixels are refined while one more sample moves them by {threshold}"));
+        }
+        (None, Some(_)) => format!("{}: too few to choose from", samples(settings.samples)),
+        (None, None) => "it is not asked for".to_owned(),
+    };
+    (false, reason)
 }
 
 fn samples(count: u32) -> String {

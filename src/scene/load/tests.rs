@@ -57,6 +57,7 @@ size = [64, 48]
 depth = 5
 cutoff = 0.01
 samples = 9
+adaptive = 0.02
 [ambient]
 color = "#ffffff"
 intensity = 0.1
@@ -99,7 +100,9 @@ normals = "flat"
         .unwrap();
     let scene = Scene::load(&files.first).unwrap();
     assert_eq!((scene.camera.eye, scene.camera.fov_y), (DVec3::new(3.0, 1.6, 5.0), 40.0));
-    assert_eq!(scene.render, RenderDefaults { size: [64, 48], depth: 5, cutoff: 0.01, samples: 9 });
+    let expected =
+        RenderDefaults { size: [64, 48], depth: 5, cutoff: 0.01, samples: 9, adaptive: Some(0.02) };
+    assert_eq!(scene.render, expected);
     assert!((scene.ambient - 0.1).length() < 1e-15);
     assert_eq!(scene.background, Background::Gradient { zenith: 2.0 * DVec3::Z, horizon: DVec3::splat(2.0) });
     let position = DVec3::new(4.0, 6.0, 3.0);

@@ -1,0 +1,204 @@
+//! What code for effects costs that a scene does not need.
+
+use std::path::Path;
+use std::time::Duration;
+
+use serde::Serialize;
+
+use super::{BenchError, Ratio, Target, Tracer, interleave, median};
+use crate::film::{Frame, Renderer};
+use crate::flatten::{flatten, view};
+use crate::layout::{Effect, EffectChoice, EffectSet, FlatScene, Scan, Settings, View};
+use crate::scene::Scene;
+
+/// A scene, flattened, and the view of it that is traced at one sample a pixel.
+pub struct Stage {
+    /// Its file's name.
+    pub name: String,
+    scene: FlatScene,
+    view: View,
+    settings: Settings,
+}
+
+/// A figure of the special side and of the general one.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Sides<T> {
+    /// With the effects that the scene calls for.
+    pub special: T,
+    /// With those that it does not need.
+    pub general: T,
+}
+
+/// One scene on one device, traced by what it calls for and by more. Both pictures were the same, bit for bit.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct EffectRow {
+    /// The scene.
+    pub scene: String,
+    /// The device.
+    pub device: String,
+    /// Effects of the general side that the scene does not call for.
+    pub added: Vec<&'static str>,
+    /// Rays of a picture.
+    pub rays: u64,
+    /// Median times of the trace, in milliseconds.
+    pub trace_ms: Sides<f64>,
+    /// How many times as long the general side takes.
+    pub ratio: Ratio,
+    /// Assembly and pipeline creation of a fresh renderer, first dispatch included, in milliseconds; none on the CPU. Cold
+    /// only where the driver keeps nothing on disk.
+    pub compile_ms: Option<Sides<f64>>,
+    /// Bytes of an invocation's stack and sample at rest in device memory; none on the CPU.
+    pub invocation_bytes: Option<Sides<u64>>,
+}
+
+impl Stage {
+    /// Read and flatten a scene.
+    ///
+    /// # Errors
+    /// [`BenchError::Scene`].
+    pub fn load(path: &Path, size: [u32; 2]) -> Result<Self, BenchError> {
+        let scene = Scene::load(path)?;
+        let flat = flatten(&scene)?.scene;
+        let (depth, cutoff) = (scene.render.depth, scene.render.cutoff as f32);
+        let settings = Settings { depth, cutoff, samples: 1, ..Settings::default() };
+        let view = view(&scene.camera, &flat, size, None, &settings);
+        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+        Ok(Self { name, scene: flat, view, settings })
+    }
+
+    /// The effects that it calls for.
+    #[must_use]
+    pub fn effects(&self) -> EffectSet {
+        Scan::of(&self.scene).effects(&self.settings).plan(&self.settings).effects
+    }
+}
+
+/// Each effect that a scene can do without, with all that it needs, as a set that holds what the scene calls for.
+///
+/// What settings decide is not among them.
+pub fn idle_effects(stage: &Stage) -> impl Iterator<Item = (Effect, EffectSet)> + use<> {
+    let found = stage.effects();
+    let by_settings = EffectSet::of(&[Effect::Antialiasing, Effect::Adaptive, Effect::Aovs]);
+    EffectSet::ALL
+        .minus(found)
+        .minus(by_settings)
+        .iter()
+        .map(move |effect| (effect, found.with(effect).closed()))
+}
+
+/// Trace a scene with its own effects and with those of `general`, in turn; none where the pictures differ.
+///
+/// # Errors
+/// What the device reports.
+pub fn compare_effects(
+    stage: &Stage,
+    target: &Target,
+    general: EffectChoice,
+    rounds: usize,
+) -> Result<Option<EffectRow>, BenchError> {
+    let mut special = Side::open(stage, target, EffectChoice::Auto)?;
+    let mut general = Side::open(stage, target, general)?;
+    if !is_same(&special.first, &general.first) {
+        return Ok(None);
+    }
+    let added = general.effects().minus(special.effects());
+    let [special_times, general_times] =
+        interleave(rounds, &mut [&mut || special.trace(), &mut || general.trace()])?;
+    let compile = |side: &Side<'_>| milliseconds(side.first.times.compile);
+    let compile_ms = Sides { special: compile(&special), general: compile(&general) };
+    let bytes = match (special.invocation_bytes()?, general.invocation_bytes()?) {
+        (Some(special), Some(general)) => Some(Sides { special, general }),
+        _ => None,
+    };
+    Ok(Some(EffectRow {
+        scene: stage.name.clone(),
+        device: target.name(),
+        added: added.iter().map(Effect::name).collect(),
+        rays: special.first.rays.total(),
+        trace_ms: Sides {
+            special: milliseconds(median(&special_times)),
+            general: milliseconds(median(&general_times)),
+        },
+        ratio: Ratio::of(&general_times, &special_times),
+        compile_ms: matches!(target, Target::Adapter(_)).then_some(compile_ms),
+        invocation_bytes: bytes,
+    }))
+}
+
+/// A renderer of its own, so that its buffers stay, and its first picture.
+struct Side<'a> {
+    stage: &'a Stage,
+    settings: Settings,
+    tracer: Tracer<'a>,
+    first: Frame,
+}
+
+impl<'a> Side<'a> {
+    fn open(stage: &'a Stage, target: &Target, effects: EffectChoice) -> Result<Self, BenchError> {
+        let settings = Settings { effects, ..stage.settings };
+        let mut tracer = target.open(&stage.scene)?;
+        let first = tracer.render(&stage.view, &settings, &())?;
+        Ok(Self { stage, settings, tracer, first })
+    }
+
+    fn trace(&mut self) -> Result<Duration, BenchError> {
+        Ok(self.tracer.render(&self.stage.view, &self.settings, &())?.times.trace)
+    }
+
+    fn effects(&self) -> EffectSet {
+        Scan::of(&self.stage.scene).effects(&self.settings).plan(&self.settings).effects
+    }
+
+    fn invocation_bytes(&mut self) -> Result<Option<u64>, BenchError> {
+        match &mut self.tracer {
+            Tracer::Cpu(_) => Ok(None),
+            Tracer::Gpu(renderer) => Ok(Some(renderer.invocation_bytes(&self.settings)?)),
+        }
+    }
+}
+
+/// Whether both frames show the same, bit for bit, after as many rays of each kind.
+fn is_same(a: &Frame, b: &Frame) -> bool {
+    a.rays == b.rays && bytemuck::cast_slice::<_, u32>(&a.texels) == bytemuck::cast_slice::<_, u32>(&b.texels)
+}
+
+fn milliseconds(time: Duration) -> f64 {
+    time.as_secs_f64() * 1e3
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    fn stage(file: &str) -> Stage {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(file);
+        Stage::load(&path, [40, 30]).unwrap()
+    }
+
+    const CPU: Target = Target::Cpu { threads: 1 };
+
+    #[test]
+    fn a_row_names_what_the_general_side_adds() {
+        let row = compare_effects(&stage("opaque.toml"), &CPU, EffectChoice::All, 2).unwrap().unwrap();
+        assert!(row.added.contains(&"transmission") && row.added.contains(&"absorption"), "{row:?}");
+        assert!(row.rays > 40 * 30 && row.trace_ms.special > 0.0 && row.ratio.median > 0.0);
+        assert_eq!((row.scene.as_str(), row.compile_ms), ("opaque.toml", None));
+    }
+
+    #[test]
+    fn other_pictures_are_no_row() {
+        let lacking = EffectChoice::Only(EffectSet::NONE);
+        assert_eq!(compare_effects(&stage("opaque.toml"), &CPU, lacking, 2).unwrap(), None);
+    }
+
+    #[test]
+    fn idle_effects_come_with_what_they_need_and_leave_the_picture_alone() {
+        let stage = stage("opaque.toml");
+        let idle: Vec<_> = idle_effects(&stage).collect();
+        let (_, absorption) = idle.iter().find(|one| one.0 == Effect::Absorption).unwrap();
+        assert!(absorption.has(Effect::Transmission) && absorption.has_all(stage.effects()));
+        assert!(idle.iter().all(|one| !stage.effects().has(one.0) && one.0 != Effect::Aovs));
+        assert!(compare_effects(&stage, &CPU, EffectChoice::Only(*absorption), 1).unwrap().is_some());
+    }
+}

@@ -1,0 +1,173 @@
+//! Studies: whole and small, and what they certify.
+
+#![allow(clippy::unwrap_used)]
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::Duration;
+
+use snellius::cpu::CpuRenderer;
+use snellius::film::{Difference, Metric, Picture, Renderer};
+use snellius::flatten;
+use snellius::layout::{Precision, Settings};
+use snellius::scene::Scene;
+use snellius::study::{Config, Goal, Knob, Report, StudyError, Truth, Watch, choose, run, write_outputs};
+
+/// Waits in silence; stops a study after so many stages.
+struct Patience {
+    stages: AtomicU32,
+    most: u32,
+}
+
+impl Patience {
+    fn new(most: u32) -> Self {
+        Self { stages: AtomicU32::new(0), most }
+    }
+}
+
+impl Watch for Patience {
+    fn stage(&self, _words: &str, _share: f64) {
+        self.stages.fetch_add(1, Ordering::Relaxed);
+    }
+
+    fn tick(&self) {}
+
+    fn is_interrupted(&self) -> bool {
+        self.stages.load(Ordering::Relaxed) > self.most
+    }
+}
+
+fn scene(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name)
+}
+
+fn config(name: &str, knobs: &[Knob], folder: &Path, seconds: u64) -> Config {
+    Config {
+        scene: scene(name),
+        folder: folder.to_owned(),
+        size: Some([24, 18]),
+        depth: None,
+        cutoff: None,
+        knobs: knobs.to_vec(),
+        adapters: Vec::new(),
+        budget: Duration::from_secs(seconds),
+        fresh: false,
+        cpu: "a processor".to_owned(),
+    }
+}
+
+fn study(name: &str, knobs: &[Knob], seconds: u64) -> Report {
+    let folder = tempfile::tempdir().unwrap();
+    run(&config(name, knobs, folder.path(), seconds), &Patience::new(u32::MAX)).unwrap()
+}
+
+#[test]
+fn the_true_truncation_error_never_exceeds_the_certified_bound() {
+    for name in ["ice.toml", "whitted.toml", "prism.toml"] {
+        let report = study(name, &[Knob::Depth, Knob::Cutoff], 8);
+        let certified: Vec<_> =
+            report.rows.iter().filter_map(|row| Some((&row.id, row.certificate?))).collect();
+        assert!(
+            certified.len() >= 8,
+            "{name}: only {} rows, left out {:?}",
+            certified.len(),
+            report.left_out
+        );
+        for (id, certificate) in &certified {
+            assert_eq!(certificate.broken, 0, "{name}, {id}");
+            assert!(certificate.error_mean <= certificate.bound_mean + 1e-6, "{name}, {id}: {certificate:?}");
+        }
+        // A comparison with nothing to compare would hold too.
+        assert!(certified.iter().any(|(_, c)| c.error_max > 1e-3 && c.bound_max > c.error_max), "{name}");
+    }
+}
+
+#[test]
+fn a_small_study_writes_every_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let knobs = [Knob::Depth, Knob::Samples, Knob::Precision, Knob::Tessellation];
+    let report = run(&config("whitted.toml", &knobs, folder.path(), 12), &Patience::new(u32::MAX)).unwrap();
+    write_outputs(&report, folder.path()).unwrap();
+    assert!(report.complete);
+    for truth in [Truth::Whole, Truth::Truncation, Truth::Arithmetic, Truth::Sampling] {
+        assert!(report.references.contains_key(&truth), "{truth:?}: {:?}", report.left_out);
+    }
+    for name in
+        ["study.json", "study.csv", "report.md", "report.html", "pareto.svg", "pareto.png", "truncation.svg"]
+    {
+        assert!(folder.path().join(name).metadata().unwrap().len() > 500, "{name}");
+    }
+    let page = std::fs::read_to_string(folder.path().join("report.html")).unwrap();
+    assert!(page.contains("<svg") && page.contains("data:image/png;base64,"));
+    assert!(!page.contains("src=\"http") && !page.contains("href="), "it needs nothing else");
+    // More samples, less error; deeper trees, less error.
+    let rmse =
+        |id: &str, truth| report.rows.iter().find(|row| row.id == id).map(|row| row.errors[&truth].rmse);
+    let few = rmse("samples: 2", Truth::Sampling).unwrap();
+    assert!(rmse("samples: 8", Truth::Sampling).is_none_or(|many| many < few));
+    assert!(rmse("depth: 1", Truth::Truncation).unwrap() > rmse("depth: 4", Truth::Truncation).unwrap());
+}
+
+#[test]
+fn a_study_that_was_stopped_goes_on_where_it_was() {
+    let folder = tempfile::tempdir().unwrap();
+    let config = config("prism.toml", &[Knob::Depth], folder.path(), 6);
+    let stopped = run(&config, &Patience::new(6)).unwrap_err();
+    assert!(matches!(stopped, StudyError::Interrupted), "{stopped}");
+    let kept: Report =
+        serde_json::from_str(&std::fs::read_to_string(folder.path().join("study.json")).unwrap()).unwrap();
+    assert!(!kept.complete && !kept.rows.is_empty());
+    let report = run(&config, &Patience::new(u32::MAX)).unwrap();
+    for row in &kept.rows {
+        // The first runs are not made again: their times would differ.
+        let same = report.rows.iter().find(|other| other.id == row.id).unwrap();
+        assert_eq!((same.warm_up_ms, &same.errors), (row.warm_up_ms, &row.errors), "{}", row.id);
+    }
+    assert!(report.complete && report.rows.len() > kept.rows.len());
+}
+
+#[test]
+fn an_error_budget_is_kept_and_is_not_wasted() {
+    for name in ["whitted.toml", "prism.toml", "mirrors.toml"] {
+        let loaded = Scene::load(&scene(name)).unwrap();
+        let flat = flatten::flatten(&loaded).unwrap().scene;
+        let size = [40, 30];
+        let goal = Goal::Error { limit: 0.002, metric: Metric::Rmse };
+        let both = [Precision::F32, Precision::F64];
+        let mut clock = |_: [u32; 2], _: &Settings| Ok::<_, StudyError>(Duration::ZERO);
+        let choice =
+            choose((&flat, &loaded.camera), size, Settings::default(), &both, goal, &mut clock).unwrap();
+        let picture = |settings: Settings| {
+            let view = flatten::view(&loaded.camera, &flat, size, None, &settings);
+            let frame = CpuRenderer::new(&flat, 0).unwrap().render(&view, &settings, &()).unwrap();
+            let clamped: Vec<_> = frame.radiance().iter().map(|p| p.map(|v| v.clamp(0.0, 1.0))).collect();
+            Picture::from_rgb(size[0], size[1], &clamped)
+        };
+        let truth = Settings { depth: 64, cutoff: 1e-6, precision: Precision::F64, ..Settings::default() };
+        let truth = picture(truth);
+        let rmse = |settings| Difference::between(&picture(settings), &truth).unwrap().rmse;
+        assert!(choice.meets && rmse(choice.settings) <= 0.002, "{name}: {choice:?}");
+        // Twice the cut-off and one level less do not keep it, or are no cheaper.
+        let Settings { cutoff, depth, .. } = choice.settings;
+        let coarser = Settings { cutoff: cutoff * 4.0, depth: depth.saturating_sub(1), ..choice.settings };
+        assert!(depth == 0 || rmse(coarser) > 0.0015, "{name}: {choice:?}");
+    }
+}
+
+#[test]
+fn the_most_accurate_settings_are_those_that_the_clock_allows() {
+    let loaded = Scene::load(&scene("prism.toml")).unwrap();
+    let flat = flatten::flatten(&loaded).unwrap().scene;
+    // A device that takes longer the less it cuts, and twice as long in f64.
+    let mut clock = |_: [u32; 2], settings: &Settings| {
+        let precision = if settings.precision == Precision::F64 { 2.0 } else { 1.0 };
+        Ok::<_, StudyError>(Duration::from_secs_f64(precision * f64::from(-settings.cutoff.log2()) / 1e3))
+    };
+    let goal = Goal::Time(Duration::from_millis(10));
+    let both = [Precision::F32, Precision::F64];
+    let base = Settings::default();
+    let choice = choose((&flat, &loaded.camera), [40, 30], base, &both, goal, &mut clock).unwrap();
+    // Nine of ten milliseconds: 2^-9 in f32, or 2^-4 in f64.
+    assert!(choice.meets && choice.settings.depth == 64);
+    assert_eq!((choice.settings.cutoff, choice.settings.precision), (2.0_f32.powi(-9), Precision::F32));
+}
