@@ -2,7 +2,7 @@
 //! time, as a table in Markdown.
 //!
 //! ```sh
-//! cargo run --release --example strict_cost -- [ROUNDS]
+//! cargo run --release --example strict_cost -- [ROUNDS [SCENE…]]
 //! ```
 
 use std::error::Error;
@@ -15,14 +15,16 @@ use snellius::gpu::{GpuOptions, GpuRenderer, adapters};
 use snellius::layout::{Float, Settings};
 use snellius::scene::Scene;
 
-/// Pixels: so many that one picture takes tens of milliseconds at least.
-const SIZE: [u32; 2] = [160, 120];
+/// Pixels: so many that one picture takes some milliseconds at least.
+const SIZE: [u32; 2] = [96, 72];
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let rounds: usize = std::env::args().nth(1).map_or(Ok(5), |argument| argument.parse())?;
+    let mut arguments = std::env::args().skip(1);
+    let rounds: usize = arguments.next().map_or(Ok(5), |argument| argument.parse())?;
+    let named: Vec<_> = arguments.map(PathBuf::from).collect();
     println!("| scene | adapter | strict, ms | fast, ms | strict : fast | pixels that differ |");
     println!("|---|---|---|---|---|---|");
-    for path in scenes()? {
+    for path in if named.is_empty() { scenes()? } else { named } {
         for adapter in adapters().iter().filter(|adapter| adapter.strict_float) {
             let options = GpuOptions { adapter: Some(adapter.name.clone()), ..GpuOptions::default() };
             let row = measure(&path, &options, rounds)?;

@@ -5,7 +5,7 @@ import package::triangle::{Shear, shear_of, intersect_triangle};
 import package::records::Triangle;
 import package::bindings::{frame, nodes, triangles};
 import package::constants::{
-    BVH_STACK, FAR, LEAST_DIRECTION, LOOP_STEPS, NODE_STEPS, NONE, ORIGIN_PADDING, SLAB_PADDING,
+    BVH_STACK, FAR, LEAST_DIRECTION, LOOP_STEPS, MOST_REACH, NODE_STEPS, NONE, ORIGIN_PADDING, SLAB_PADDING,
 };
 
 // A ray, prepared for boxes and triangles.
@@ -103,12 +103,22 @@ fn triangle_slabs(ray: Ray, tri: Triangle) -> Span {
     return slabs(ray, lo, hi);
 }
 
+// Whether a scene can make such a ray: no NaN, and nothing beyond reach.
+fn is_usable(ray: Ray) -> bool {
+    let d = abs(ray.direction);
+    return abs(ray.origin_hi.x) + d.x + d.y + d.z < MOST_REACH;
+}
+
 // The nearest triangle in (0, limit), ties to the lowest primitive id.
 //
 // The CPU tests a leaf's triangles in a loop of their own. Here each round of the one loop tests a triangle, or visits a
 // node, or both: invocations in step then wait for each other once a round, not once a leaf.
 fn intersect(ray: Ray, limit: real) -> Hit {
     var best = Hit(limit, 0u, NONE, 0.0, 0.0, false);
+    if !is_usable(ray) {
+        best.id = NONE;
+        return best;
+    }
     var size = 0u;
     var at = 0u;
     // Triangles that are still to be tested: of the leaf in work, then of the one behind it.
@@ -177,6 +187,9 @@ fn intersect(ray: Ray, limit: real) -> Hit {
 // Whether any triangle lies in (0, limit): for shadows of which every blocker is opaque. In no order, to the first that
 // is found.
 fn occluded(ray: Ray, limit: real) -> bool {
+    if !is_usable(ray) {
+        return false;
+    }
     let nothing = Hit(limit, 0u, NONE, 0.0, 0.0, false);
     var size = 0u;
     var at = 0u;

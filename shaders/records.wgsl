@@ -1,6 +1,6 @@
 // The records in the buffers: src/layout says what they mean.
 
-import package::constants::{BOUND_ROWS, LANES, MEDIA_ROWS, STACK_SIZE};
+import package::constants::{BOUND_ROWS, LANES, MEDIA_ROWS, STACK_SIZE, TREE_NODES};
 import package::film::Sample;
 import package::whitted::Branch;
 

@@ -5,6 +5,7 @@ mod effects;
 mod fuzz;
 mod layering;
 mod lockstep;
+mod properties;
 mod scenes;
 mod selftest;
 mod study;

@@ -6,18 +6,11 @@ use snellius::cpu::CpuRenderer;
 use snellius::film::{Frame, Renderer};
 use snellius::flatten;
 use snellius::gpu::{self, AdapterReport, GpuOptions, GpuRenderer};
-use snellius::layout::{FlatScene, Float, Precision, Settings, Texel};
+use snellius::layout::{FlatScene, Float, Precision, Settings};
 use snellius::scene::Scene;
+use snellius::selftest::{Agreement, LEAST_EQUAL_F64, LEAST_EQUAL_FAST, greatest_difference};
 
 use super::Result;
-
-/// Least percentage of pixels whose rays meet the same primitives when the driver may rewrite sums and products.
-pub(super) const LEAST_EQUAL_FAST: f64 = 99.9;
-/// Least percentage of pixels whose rays meet the same bodies in f32 and f64.
-pub(super) const LEAST_EQUAL_F64: f64 = 97.0;
-/// Most that f32 may differ from f64 in 99 of 100 such pixels, as part of the greatest radiance that the scene can
-/// give (`max_radiance` of `render --json`) or of 1.
-const F64_TOLERANCE: f32 = 1e-4;
 
 /// An adapter, and the size at which it is compared with the CPU.
 pub(super) struct Target {
@@ -44,10 +37,10 @@ pub(super) struct Row {
     pub(super) triangles: usize,
     /// Rays of the CPU in f32 at the first target's size, shadow rays among them.
     pub(super) rays: u64,
-    pub(super) strict: Strict,
+    pub(super) strict: Agreement,
     /// Percentage of pixels with the same primitive hash, `--float fast`.
     pub(super) fast: f64,
-    pub(super) second_strict: Strict,
+    pub(super) second_strict: Agreement,
     /// Percentage of pixels with the same body hash, f32 against f64.
     pub(super) bodies: f64,
     /// 99th percentile of the largest channel's difference between f32 and f64, over these pixels.
@@ -58,40 +51,25 @@ pub(super) struct Row {
     pub(super) brightest: f32,
 }
 
-/// A strict picture of a GPU against the CPU's.
-pub(super) struct Strict {
-    /// Pixels of which a channel's bits differ.
-    pub(super) differing: usize,
-    /// Whether as many rays of each kind were traced.
-    pub(super) same_rays: bool,
-}
-
-impl Strict {
-    pub(super) fn holds(&self) -> bool {
-        self.differing == 0 && self.same_rays
-    }
-}
-
 impl Row {
     /// Trace the scene on every device.
     pub(super) fn measure(path: &Path, first: &Target, second: &Target) -> Result<Self> {
         let bench = Bench::load(path)?;
         let single = bench.cpu(first.size, Precision::F32)?;
         let double = bench.cpu(first.size, Precision::F64)?;
-        let fast = bench.gpu(first, Float::Fast)?;
+        let fast = Agreement::between(&single, &bench.gpu(first, Float::Fast)?);
+        let precise = Agreement::between(&single, &double);
+        let second_single = bench.cpu(second.size, Precision::F32)?;
         Ok(Self {
             scene: path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
             triangles: bench.flat.triangles.len(),
             rays: single.rays.primary + single.rays.reflection + single.rays.refraction + single.rays.shadow,
-            strict: compare(&single, &bench.gpu(first, Float::Strict)?),
-            fast: percent_equal(&single, &fast, |texel| texel.primitive_hash),
-            second_strict: compare(
-                &bench.cpu(second.size, Precision::F32)?,
-                &bench.gpu(second, Float::Strict)?,
-            ),
-            bodies: percent_equal(&single, &double, |texel| texel.body_hash),
-            p99: p99_where_bodies_agree(&single, &double),
-            allowed: F64_TOLERANCE * bench.flat.radiance_bound.last().copied().unwrap_or(0.0).max(1.0),
+            strict: Agreement::between(&single, &bench.gpu(first, Float::Strict)?),
+            fast: fast.same_primitives,
+            second_strict: Agreement::between(&second_single, &bench.gpu(second, Float::Strict)?),
+            bodies: precise.same_bodies,
+            p99: precise.p99,
+            allowed: greatest_difference(bench.flat.radiance_bound.last().copied().unwrap_or(0.0)),
             brightest: brightest(&double),
         })
     }
@@ -99,9 +77,9 @@ impl Row {
     /// The required figures that do not hold.
     pub(super) fn failures(&self) -> impl Iterator<Item = &'static str> {
         [
-            (self.strict.holds(), "the strict picture of the first adapter"),
+            (self.strict.is_exact(), "the strict picture of the first adapter"),
             (self.fast >= LEAST_EQUAL_FAST, "the fast picture of the first adapter"),
-            (self.second_strict.holds(), "the strict picture of the second adapter"),
+            (self.second_strict.is_exact(), "the strict picture of the second adapter"),
             (self.bodies >= LEAST_EQUAL_F64, "equal body hashes in f32 and f64"),
             (self.p99 <= self.allowed, "the difference of f32 and f64"),
         ]
@@ -150,28 +128,6 @@ impl Bench {
         let render = &self.scene.render;
         Settings { depth: render.depth, cutoff: render.cutoff as f32, samples: 1, ..Settings::default() }
     }
-}
-
-fn compare(cpu: &Frame, gpu: &Frame) -> Strict {
-    let differs = |(a, b): &(&Texel, &Texel)| a.radiance.map(f32::to_bits) != b.radiance.map(f32::to_bits);
-    Strict {
-        differing: cpu.texels.iter().zip(&gpu.texels).filter(differs).count(),
-        same_rays: cpu.rays == gpu.rays,
-    }
-}
-
-fn percent_equal(a: &Frame, b: &Frame, hash: impl Fn(&Texel) -> u32) -> f64 {
-    let equal = a.texels.iter().zip(&b.texels).filter(|(a, b)| hash(a) == hash(b)).count();
-    100.0 * equal as f64 / a.texels.len() as f64
-}
-
-fn p99_where_bodies_agree(a: &Frame, b: &Frame) -> f32 {
-    let same = a.texels.iter().zip(&b.texels).filter(|(a, b)| a.body_hash == b.body_hash);
-    let mut differences: Vec<f32> = same
-        .map(|(a, b)| (0..3).map(|c| (a.radiance[c] - b.radiance[c]).abs()).fold(0.0, f32::max))
-        .collect();
-    differences.sort_by(f32::total_cmp);
-    differences.get(differences.len() * 99 / 100).copied().unwrap_or(0.0)
 }
 
 fn brightest(frame: &Frame) -> f32 {

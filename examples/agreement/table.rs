@@ -1,6 +1,8 @@
 //! The figures as Markdown; what fails is in bold.
 
-use super::measure::{LEAST_EQUAL_F64, LEAST_EQUAL_FAST, Row, Strict, Target};
+use snellius::selftest::{Agreement, LEAST_EQUAL_F64, LEAST_EQUAL_FAST};
+
+use super::measure::{Row, Target};
 
 /// The head, and a row of what is required.
 pub(super) fn head(first: &Target, second: &Target) -> String {
@@ -54,9 +56,9 @@ fn described(target: &Target) -> String {
     format!("{name}: {}, {driver}, at {width}×{height}", report.name)
 }
 
-fn strict(strict: &Strict) -> String {
+fn strict(strict: &Agreement) -> String {
     let rays = if strict.same_rays { "" } else { ", other rays" };
-    mark(format!("{}{rays}", strict.differing), strict.holds())
+    mark(format!("{}{rays}", strict.differing), strict.is_exact())
 }
 
 fn mark(figure: String, holds: bool) -> String {

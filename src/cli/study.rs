@@ -40,7 +40,8 @@ pub(super) struct StudyArgs {
     /// The baseline's least weight of a traced ray, 0 to 1 [default: the scene's]
     #[arg(long, value_name = "W", value_parser = |text: &str| number_in(text, 0.0, 1.0))]
     cutoff: Option<f64>,
-    /// What to change: depth, cutoff, samples, precision, intersector, tessellation, effects, device [default: all]
+    /// What to change: depth, cutoff, samples, adaptive, precision, intersector, tessellation, effects,
+    /// device [default: all]
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = knob)]
     knobs: Vec<Knob>,
     /// About how long it may take, in seconds: what does not fit is left out, and said to be

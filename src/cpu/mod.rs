@@ -14,7 +14,8 @@ use crate::kernel::whitted::{Branch, trace_pixel};
 use crate::kernel::{Real, Simulation, Within, World};
 use crate::layout::{Aov, Effect, EffectSet, FlatScene, Float, Precision, Scan, Settings, Texel, View};
 
-/// Side of a tile in pixels: small enough to balance the end of a frame, large enough to amortise its bookkeeping.
+/// Side of a tile in pixels, if none is asked for: small enough to balance the end of a frame, large enough to amortise
+/// its bookkeeping.
 const TILE: u32 = 16;
 
 /// What scenes of paint call for. They have a kernel of their own, without the code of all other effects: 8 % faster on
@@ -42,6 +43,7 @@ pub struct CpuRenderer<'a> {
     /// What the scene calls for.
     scan: Scan,
     pool: rayon::ThreadPool,
+    tile: u32,
 }
 
 impl<'a> CpuRenderer<'a> {
@@ -50,11 +52,19 @@ impl<'a> CpuRenderer<'a> {
     /// # Errors
     /// If the operating system gives no threads.
     pub fn new(scene: &'a FlatScene, threads: usize) -> Result<Self, CpuError> {
+        Self::with_tile(scene, threads, TILE)
+    }
+
+    /// The same in tiles of `tile` pixels, ≥ 1, by as many: how work is shared out, which no picture shows.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_tile(scene: &'a FlatScene, threads: usize, tile: u32) -> Result<Self, CpuError> {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .build()
             .map_err(|source| CpuError { threads, source })?;
-        Ok(Self { scene, scan: Scan::of(scene), pool })
+        Ok(Self { scene, scan: Scan::of(scene), pool, tile: tile.max(1) })
     }
 
     /// How many threads trace.
@@ -80,18 +90,23 @@ impl Renderer for CpuRenderer<'_> {
         Ok(self.pool.install(|| match settings.precision {
             Precision::F32 if PAINT.has_all(effects) => {
                 let world = world.simulating(Within::<{ PAINT.bits() }>(effects));
-                render::<f32>(&world, settings, progress)
+                render::<f32>(&world, settings, self.tile, progress)
             }
-            Precision::F32 => render::<f32>(&world, settings, progress),
-            Precision::F64 => render::<f64>(&world, settings, progress),
+            Precision::F32 => render::<f32>(&world, settings, self.tile, progress),
+            Precision::F64 => render::<f64>(&world, settings, self.tile, progress),
         }))
     }
 }
 
-fn render<R: Real>(world: &World<impl Simulation>, settings: &Settings, progress: &dyn Progress) -> Frame {
+fn render<R: Real>(
+    world: &World<impl Simulation>,
+    settings: &Settings,
+    side: u32,
+    progress: &dyn Progress,
+) -> Frame {
     match settings.threshold().filter(|_| world.simulates(Effect::Adaptive)) {
         Some(threshold) => adaptive::render_adaptive::<R, _>(world, settings, threshold, progress),
-        None => render_uniform::<R>(world, settings, progress),
+        None => render_uniform::<R>(world, settings, side, progress),
     }
 }
 
@@ -108,6 +123,7 @@ struct Tile {
 fn render_uniform<R: Real>(
     world: &World<impl Simulation>,
     settings: &Settings,
+    side: u32,
     progress: &dyn Progress,
 ) -> Frame {
     let [_, _, width, height] = world.view.crop;
@@ -124,15 +140,15 @@ fn render_uniform<R: Real>(
         complete: true,
     });
     let started = Instant::now();
-    let columns = width.div_ceil(TILE);
-    let tiles = columns * height.div_ceil(TILE);
+    let columns = width.div_ceil(side);
+    let tiles = columns * height.div_ceil(side);
     let done = AtomicU64::new(0);
     let stop = AtomicBool::new(false);
     (0..tiles).into_par_iter().for_each_init(Vec::new, |stack, index| {
         if stop.load(Ordering::Relaxed) {
             return;
         }
-        let tile = trace_tile::<R>(world, stack, index % columns, index / columns);
+        let tile = trace_tile::<R>(world, stack, side, [index % columns, index / columns]);
         // Nothing panics while the lock is held.
         let mut frame = frame.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         paste(&mut frame, &tile);
@@ -152,12 +168,12 @@ fn render_uniform<R: Real>(
 fn trace_tile<R: Real>(
     world: &World<impl Simulation>,
     stack: &mut Vec<Branch<R>>,
-    column: u32,
-    row: u32,
+    side: u32,
+    [column, row]: [u32; 2],
 ) -> Tile {
     let [left, top, width, height] = world.view.crop;
-    let (x, y) = (column * TILE, row * TILE);
-    let (w, h) = (TILE.min(width - x), TILE.min(height - y));
+    let (x, y) = (column * side, row * side);
+    let (w, h) = (side.min(width - x), side.min(height - y));
     let mut tile = Tile {
         x,
         y,

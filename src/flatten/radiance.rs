@@ -7,12 +7,17 @@ use super::number::{narrow_up, widen3};
 use crate::layout::constants::MAX_DEPTH;
 use crate::layout::{FlatScene, Light, Material};
 
-/// L₀ … L of `MAX_DEPTH` + 1 levels: `L₀` is the brightest background, `Lₖ₊₁ = A + g·Lₖ`, with A the largest
-/// local term and g the largest weight that a surface passes on. Rounded up, and capped at the greatest f32.
+/// 2^100: as much as no bound at all. Millions of cut rays may add up as much and stay within f32.
+const BOUNDLESS: f64 = 1.267_650_600_228_229_4e30;
+
+/// L₀ … L of `MAX_DEPTH` + 1 levels: `L₀ = B`, `Lₖ₊₁ = max(B, A + g·Lₖ)`, with B the brightest background, A the
+/// largest local term and g the largest weight that a surface passes on: a ray meets a surface or sees the background.
+/// So the series never falls, and bounds what a cut ray is given, `L₀`, too. Rounded up, and capped at [`BOUNDLESS`].
 pub(super) fn bounds(scene: &FlatScene) -> Vec<f32> {
     let (local, passed) = (largest_local_term(scene), largest_weight(scene));
-    let levels = std::iter::successors(Some(brightest_background(scene)), |&radiance| {
-        Some((local + passed * radiance).min(f64::from(f32::MAX)))
+    let background = brightest_background(scene).min(BOUNDLESS);
+    let levels = std::iter::successors(Some(background), |&radiance| {
+        Some((local + passed * radiance).clamp(background, BOUNDLESS))
     });
     levels.take(MAX_DEPTH as usize + 1).map(narrow_up).collect()
 }
@@ -121,9 +126,16 @@ mod tests {
     }
 
     #[test]
+    fn surfaces_that_pass_on_little_do_not_hide_the_background() {
+        let white = |scene: &mut Scene| scene.background = Background::Color(DVec3::ONE);
+        let bounds = bounds_of(|stone| stone.reflection = DVec3::splat(0.5), white);
+        assert!(bounds.iter().all(|&bound| bound == 1.0), "{bounds:?}");
+    }
+
+    #[test]
     fn a_light_on_a_surface_gives_a_finite_bound() {
         let touching = |scene: &mut Scene| scene.lights = vec![lamp(DVec3::X, 1.0, Falloff::InverseSquare)];
-        assert_eq!(bounds_of(|_| {}, touching)[1], f32::MAX);
+        assert_eq!(bounds_of(|_| {}, touching)[1], BOUNDLESS as f32);
         assert_eq!(bounds_of(|stone| stone.diffuse = DVec3::ZERO, touching)[1], 0.0);
     }
 

@@ -348,7 +348,7 @@ mod tests {
 
     #[test]
     fn a_stop_settles_what_is_there() {
-        let subject = Subject::new("goblet.toml", [90, 120], 1).adaptive(64, 0.001);
+        let subject = Subject::new("goblet.toml", [60, 80], 1).adaptive(16, 0.001);
         let expected = subject.on_cpu();
         let check = |frame: Frame, what: &str| {
             assert!(!frame.complete && frame.texels.len() == expected.texels.len(), "{what}");

@@ -20,6 +20,7 @@ pub(super) struct Pipelines {
 }
 
 impl Pipelines {
+    /// None yet, to be assembled out of these shader files.
     pub(super) fn new(
         context: &Context,
         layout: &wgpu::BindGroupLayout,

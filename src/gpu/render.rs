@@ -12,7 +12,7 @@ use super::film::{FilmBuffer, PixelLayout};
 use super::job::Job;
 use super::pace::Pace;
 use super::pipelines::Pipelines;
-use super::{AdapterReport, GpuError, GpuOptions, SOURCES, Source, Variant};
+use super::{AdapterReport, GpuError, GpuOptions, Portions, SOURCES, Source, Variant};
 use crate::film::{Frame, Progress, RayCounts, Renderer, SampleCounts, TraceTimes};
 use crate::layout::constants::BLOCK;
 use crate::layout::{FlatScene, Float, Plan, Scan, Settings, Tile, View};
@@ -33,6 +33,8 @@ pub struct GpuRenderer {
     /// Variants that have been dispatched.
     warm: HashSet<Variant>,
     pub(super) film: Option<FilmBuffer>,
+    /// See [`Portions::pixels`].
+    band_pixels: u64,
 }
 
 impl GpuRenderer {
@@ -69,6 +71,7 @@ impl GpuRenderer {
             sifters: HashMap::new(),
             warm: HashSet::new(),
             film: None,
+            band_pixels: u64::MAX,
         })
     }
 
@@ -78,18 +81,16 @@ impl GpuRenderer {
         &self.context.adapter
     }
 
-    /// Whether the pipeline that these settings need is compiled.
+    /// How much of a picture is traced at a time: at first, what suits the adapter.
     #[must_use]
-    pub fn is_compiled(&self, settings: &Settings) -> bool {
-        self.pipelines.get(&self.variant(settings)).is_some()
+    pub fn portions(&self) -> Portions {
+        Portions { steps: self.context.step_budget, pixels: self.band_pixels }
     }
 
-    /// Compile the pipeline that these settings need on another thread. Until it is there, a render with
-    /// [`EffectChoice::All`](crate::layout::EffectChoice::All) gives the same picture by a pipeline that may be: the general
-    /// one serves any scene of that depth.
-    pub fn compile_ahead(&self, settings: &Settings) -> JoinHandle<Result<(), GpuError>> {
-        let (pipelines, variant) = (self.pipelines.clone(), self.variant(settings));
-        thread::spawn(move || pipelines.compile(&variant).map(drop))
+    /// Trace that much at a time.
+    pub fn set_portions(&mut self, portions: Portions) {
+        self.context.step_budget = portions.steps;
+        self.band_pixels = portions.pixels;
     }
 
     /// Put another scene in place of this one. What was compiled is kept, unless the new scene's tree is deeper.
@@ -113,6 +114,20 @@ impl GpuRenderer {
         let variant = self.variant(settings);
         let invocations = u64::from(variant.most_blocks() * BLOCK * BLOCK);
         Ok(self.pipelines.compile(&variant)?.texels_at / invocations)
+    }
+
+    /// Whether the pipeline that these settings need is compiled.
+    #[must_use]
+    pub fn is_compiled(&self, settings: &Settings) -> bool {
+        self.pipelines.get(&self.variant(settings)).is_some()
+    }
+
+    /// Compile the pipeline that these settings need on another thread. Until it is there, a render with
+    /// [`EffectChoice::All`](crate::layout::EffectChoice::All) gives the same picture by a pipeline that may be: the general
+    /// one serves any scene of that depth.
+    pub fn compile_ahead(&self, settings: &Settings) -> JoinHandle<Result<(), GpuError>> {
+        let (pipelines, variant) = (self.pipelines.clone(), self.variant(settings));
+        thread::spawn(move || pipelines.compile(&variant).map(drop))
     }
 
     /// What is simulated under these settings.
@@ -166,7 +181,7 @@ impl GpuRenderer {
         let [_, _, width, height] = view.crop;
         let limit = self.context.largest_binding();
         let most_pixels = FilmBuffer::most_pixels(limit, compiled.texels_at, PixelLayout::of(variant));
-        Ok(Blocks::new(width, height).band_height(most_pixels))
+        Ok(Blocks::new(width, height).band_height(most_pixels.min(self.band_pixels)))
     }
 
     /// The film of the last picture if it is laid out so, else a new one.

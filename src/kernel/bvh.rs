@@ -8,7 +8,9 @@
 //! winning triangle is ever culled.
 
 use crate::layout::Triangle;
-use crate::layout::constants::{FAR, LEAST_DIRECTION, MAX_BVH_DEPTH, NONE, ORIGIN_PADDING, SLAB_PADDING};
+use crate::layout::constants::{
+    FAR, LEAST_DIRECTION, MAX_BVH_DEPTH, MOST_REACH, NONE, ORIGIN_PADDING, SLAB_PADDING,
+};
 
 use super::triangle::{Shear, intersect_triangle, shear_of};
 use super::{Real, Simulation, Vec3, World};
@@ -134,9 +136,20 @@ pub fn triangle_slabs<R: Real>(ray: &Ray<R>, tri: &Triangle) -> Span<R> {
     slabs(ray, lo, hi)
 }
 
+/// Whether a scene can make such a ray: one with a NaN would enter every box, for comparisons tell nothing about it, and
+/// so would one from so far that the padding swallows the scene.
+pub fn is_usable<R: Real>(ray: &Ray<R>) -> bool {
+    let d = ray.direction.abs();
+    // The padding of each component holds all of the origin.
+    ray.origin_hi.x.abs() + d.x + d.y + d.z < R::of(MOST_REACH)
+}
+
 /// The nearest triangle in (0, limit), ties to the lowest primitive id.
 pub fn intersect<R: Real>(world: &World<impl Simulation>, ray: &Ray<R>, limit: R) -> Hit<R> {
     let mut best = Hit { t: limit, id: 0, index: NONE, b1: R::ZERO, b2: R::ZERO, front: false };
+    if !is_usable(ray) {
+        return Hit { id: NONE, ..best };
+    }
     let mut stack = [0u32; MAX_BVH_DEPTH as usize];
     let mut size = 0;
     let mut at = 0u32;
@@ -186,6 +199,9 @@ pub fn intersect<R: Real>(world: &World<impl Simulation>, ray: &Ray<R>, limit: R
 /// Whether any triangle lies in (0, limit): for shadows of which every blocker is opaque. In no order, to the first that
 /// is found.
 pub fn occluded<R: Real>(world: &World<impl Simulation>, ray: &Ray<R>, limit: R) -> bool {
+    if !is_usable(ray) {
+        return false;
+    }
     let nothing = Hit { t: limit, id: 0, index: NONE, b1: R::ZERO, b2: R::ZERO, front: false };
     let mut stack = [0u32; MAX_BVH_DEPTH as usize];
     let mut size = 0;

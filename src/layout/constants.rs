@@ -105,6 +105,9 @@ shared! {
 
     /// 2^120: beyond every scene, a ray without end. Finite, since WGSL promises no infinities.
     FAR: f64 = 1.329_227_995_784_916e36;
+    /// 2^64: farther than any ray of a scene within ±2^60 begins from its boxes. A ray with a number beyond it, or with
+    /// one that is none, meets nothing.
+    MOST_REACH: f64 = 18_446_744_073_709_551_616.0;
     /// 2^-40: direction components below this count as this much in the slab test, so that every reciprocal and
     /// every product with it is finite. That much of the distance is far less than [`SLAB_PADDING`] of it.
     LEAST_DIRECTION: f64 = 9.094_947_017_729_282e-13;

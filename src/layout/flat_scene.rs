@@ -65,6 +65,6 @@ pub struct FlatScene {
     /// The background picture, its rotation about +Y in turns, in [0, 1), and its intensity.
     pub environment: Option<(FlatTexture, f32, f32)>,
     /// `MAX_DEPTH` + 1 values: `radiance_bound[k]` bounds what a tree of k levels returns. L₀ is the brightest
-    /// background, Lₖ₊₁ = A + g·Lₖ with the largest local term A and the greatest gain g of a material.
+    /// background, Lₖ₊₁ = max(L₀, A + g·Lₖ) with the largest local term A and the greatest gain g of a material.
     pub radiance_bound: Vec<f32>,
 }

@@ -34,7 +34,7 @@ const REWORDED: [(&str, &str, &str); 6] = [
         "this table may occur several times",
         "give it double brackets, like [[light]]",
     ),
-    ("recursion limit", "tables, arrays or dotted keys are nested too deeply", "a scene needs four levels"),
+    ("recurs", "tables, arrays or dotted keys are nested too deeply", "a scene needs four levels"),
     ("sequence, expected a table", "this table occurs once only", "give it single brackets, like [camera]"),
 ];
 

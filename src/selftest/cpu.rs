@@ -1,5 +1,7 @@
 //! The CPU as a device of the self-test.
 
+use std::num::NonZero;
+
 use rayon::prelude::*;
 
 use super::lockstep::Difference;
@@ -106,7 +108,24 @@ impl Device for CpuDevice {
         };
         Ok(CpuRenderer::new(&stage.flat, 0)?.render(&stage.view_for(&settings), &settings, &())?)
     }
+
+    fn shared_out(&mut self, stage: &Stage, settings: &Settings) -> Answered<(String, Frame)> {
+        let settings = Settings { precision: self.precision, intersector: self.intersector, ..*settings };
+        let view = stage.view_for(&settings);
+        let most = std::thread::available_parallelism().map_or(1, NonZero::get);
+        let mut frames = Vec::new();
+        // One thread more than there are cores, so that it is never one only.
+        for (threads, tile) in (1..=most + 1).zip(TILES.into_iter().cycle()) {
+            let mut renderer = CpuRenderer::with_tile(&stage.flat, threads, tile)?;
+            let way = format!("{threads} threads, tiles of {tile} × {tile}");
+            frames.push((way, renderer.render(&view, &settings, &())?));
+        }
+        Ok(frames)
+    }
 }
+
+/// Sides of tiles: a few pixels, the usual one, and one that does not divide a picture.
+const TILES: [u32; 3] = [3, 16, 61];
 
 /// None where it is total.
 fn reflectance<R: Real>([cosine, eta]: [f32; 2]) -> Option<f32> {

@@ -62,6 +62,13 @@ pub trait Device {
     /// # Errors
     /// As the device's.
     fn picture(&mut self, stage: &Stage, settings: &Settings) -> Result<Frame, DeviceError>;
+
+    /// The same picture once for each way of sharing out the work, told in words: threads and tiles on the CPU, rests and
+    /// bands on an adapter.
+    ///
+    /// # Errors
+    /// As the device's.
+    fn shared_out(&mut self, stage: &Stage, settings: &Settings) -> Answered<(String, Frame)>;
 }
 
 /// One answer a query.

@@ -4,9 +4,9 @@ use super::lockstep::{Difference, Lockstep};
 use super::paths::BEND_WORDS;
 use super::{Answered, Bend, Bent, Device, DeviceError, Escape, Leave, Left, Stage, Walk, Walked};
 use crate::film::{Frame, Renderer};
-use crate::gpu::{AdapterReport, GpuError, GpuOptions, GpuRenderer, Prober, Source, Variant};
+use crate::gpu::{AdapterReport, GpuError, GpuOptions, GpuRenderer, Portions, Prober, Source, Variant};
 use crate::layout::constants::{MAX_BVH_DEPTH, MAX_DEPTH};
-use crate::layout::{EffectChoice, FlatScene, Float, Intersector, Plan, Precision, Settings, Tile};
+use crate::layout::{EffectChoice, FlatScene, Float, Intersector, Plan, Precision, Settings, Tile, View};
 use crate::scene::Scene;
 
 /// File and name of the entry points, and words of their records.
@@ -198,23 +198,52 @@ impl Device for GpuDevice {
     }
 
     fn picture(&mut self, stage: &Stage, settings: &Settings) -> Result<Frame, DeviceError> {
+        let (view, settings) = self.aim(stage, settings);
+        Ok(self.show(stage)?.render(&view, &settings, &())?)
+    }
+
+    fn shared_out(&mut self, stage: &Stage, settings: &Settings) -> Answered<(String, Frame)> {
+        let (view, settings) = self.aim(stage, settings);
+        let renderer = self.show(stage)?;
+        let usual = renderer.portions();
+        let ways = [
+            ("as usual", usual),
+            ("as usual, again", usual),
+            ("a rest now and then", Portions { steps: usual.steps.min(997), ..usual }),
+            ("bands of one row of blocks", Portions { pixels: 1, ..usual }),
+            ("a rest after every ray, in bands", Portions { steps: 1, pixels: 1 }),
+        ];
+        let frames = ways.map(|(way, portions)| {
+            renderer.set_portions(portions);
+            renderer.render(&view, &settings, &()).map(|frame| (way.to_owned(), frame))
+        });
+        renderer.set_portions(usual);
+        Ok(frames.into_iter().collect::<Result<_, _>>()?)
+    }
+}
+
+impl GpuDevice {
+    /// The stage's view for these settings, and how it is traced here.
+    fn aim(&self, stage: &Stage, settings: &Settings) -> (View, Settings) {
         let Variant { float, intersector, .. } = self.variant;
         let settings = Settings { precision: Precision::F32, float, intersector, ..*settings };
-        let view = stage.view_for(&settings);
-        let renderer = match &mut self.renderer {
+        // The stack of the deepest tree of rays serves every depth, and the code of all effects every scene.
+        (stage.view_for(&settings), Settings { depth: MAX_DEPTH, effects: EffectChoice::All, ..settings })
+    }
+
+    /// The renderer, with this scene on the adapter.
+    fn show(&mut self, stage: &Stage) -> Result<&mut GpuRenderer, DeviceError> {
+        match &mut self.renderer {
             Some(renderer) => {
                 renderer.show(&stage.flat)?;
-                renderer
+                Ok(renderer)
             }
             none => {
                 // The deepest tree comes first, so that its stack serves every scene.
                 let scene = FlatScene { bvh_depth: MAX_BVH_DEPTH, ..stage.flat.clone() };
-                none.insert(GpuRenderer::with_sources(&scene, &self.options, self.sources)?)
+                Ok(none.insert(GpuRenderer::with_sources(&scene, &self.options, self.sources)?))
             }
-        };
-        // So does the stack of the deepest tree of rays, and the code of all effects.
-        let settings = Settings { depth: MAX_DEPTH, effects: EffectChoice::All, ..settings };
-        Ok(renderer.render(&view, &settings, &())?)
+        }
     }
 }
 

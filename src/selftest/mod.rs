@@ -5,6 +5,7 @@
 //! tests and by `snellius selftest`. A planted fault must push at least one figure of its case over the bound
 //! (tests/selftest).
 
+mod agreement;
 mod arithmetic;
 mod case;
 mod cases;
@@ -20,6 +21,7 @@ mod rays;
 pub mod solids;
 mod stage;
 
+pub use agreement::{Agreement, LEAST_EQUAL_F64, LEAST_EQUAL_FAST, greatest_difference};
 pub use arithmetic::{Arithmetic, Operation, Rewrite};
 pub use case::{Bound, Case, Effort, Finding, Verdict};
 pub use cases::CASES;

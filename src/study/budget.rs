@@ -85,6 +85,8 @@ struct Probe<'a> {
     renderer: CpuRenderer<'a>,
     judge: Seen,
     metric: Metric,
+    /// Whether it is the whole picture: then nothing can have been missed.
+    is_whole: bool,
     tried: usize,
 }
 
@@ -138,6 +140,7 @@ impl<'a> Probe<'a> {
         base: Settings,
         metric: Metric,
     ) -> Result<(Self, Uncertainty), StudyError> {
+        let is_whole = probe_size(size, base.samples) == size;
         let size = probe_size(size, base.samples);
         let mut renderer = CpuRenderer::new(scene, 0)?;
         let mut shoot = |setup: &Setup| shoot(&mut renderer, (scene, camera), size, &setup.settings);
@@ -153,7 +156,7 @@ impl<'a> Probe<'a> {
         let Some(Reference { seen, record }) = judge else {
             return Err(StudyError::TooSlow { seconds: limit.as_secs_f64() });
         };
-        let probe = Self { scene, camera, size, renderer, judge: seen, metric, tried: 0 };
+        let probe = Self { scene, camera, size, renderer, judge: seen, metric, is_whole, tried: 0 };
         Ok((probe, record.uncertainty))
     }
 
@@ -163,7 +166,7 @@ impl<'a> Probe<'a> {
         let shot = shoot(&mut self.renderer, (self.scene, self.camera), self.size, &settings)?;
         let seen = Seen::of(&shot.frame);
         let errors = Errors::between(&seen, &self.judge)?;
-        let figure = figure(self.metric, &errors, &seen, &self.judge);
+        let figure = figure(self.metric, &errors, &seen, &self.judge, self.is_whole);
         Ok(Tried { settings, errors, figure })
     }
 
@@ -310,7 +313,7 @@ fn cutoff(exponent: i32) -> f32 {
 
 /// A figure of a picture, and what it is below with 95 % confidence if the probe's pixels are a random sample of the
 /// picture's. Of a greatest error a sample says nothing more than itself.
-fn figure(metric: Metric, errors: &Errors, seen: &Seen, judge: &Seen) -> [f64; 2] {
+fn figure(metric: Metric, errors: &Errors, seen: &Seen, judge: &Seen, is_whole: bool) -> [f64; 2] {
     match metric {
         Metric::Max => [errors.max; 2],
         Metric::DifferingPixels => {
@@ -319,7 +322,7 @@ fn figure(metric: Metric, errors: &Errors, seen: &Seen, judge: &Seen) -> [f64; 2
         }
         Metric::Flip => {
             let map = flip(&judge.clamped(), &seen.clamped(), seen.width as usize);
-            let (mean, above) = mean_and_above(map.into_iter().map(f64::from));
+            let (mean, above) = mean_and_above(map.into_iter().map(f64::from), is_whole);
             [mean, above]
         }
         Metric::Rmse => {
@@ -327,18 +330,25 @@ fn figure(metric: Metric, errors: &Errors, seen: &Seen, judge: &Seen) -> [f64; 2
                 (0..3).map(|c| f64::from(a[c] - b[c]).powi(2)).sum::<f64>() / 3.0
             };
             let squares: Vec<_> = seen.clamped().into_iter().zip(judge.clamped()).map(square).collect();
-            let (mean, above) = mean_and_above(squares.into_iter());
+            let (mean, above) = mean_and_above(squares.into_iter(), is_whole);
             [mean.sqrt(), above.sqrt()]
         }
     }
 }
 
-/// The mean of a sample, and the end of its one-sided interval of 95 %.
-fn mean_and_above(values: impl ExactSizeIterator<Item = f64> + Clone) -> (f64, f64) {
+/// The mean of a sample, and what that of the whole is below with 95 % confidence: the end of the normal one-sided
+/// interval, and what rare pixels may add. Events rarer than 3/n are missed by one sample of n in twenty (the rule of
+/// three: Hanley and Lippman-Hand 1983, JAMA 249(13)); they are taken to be as bad as the worst that is there. A ray that
+/// f32 sends another way is such an event.
+fn mean_and_above(values: impl ExactSizeIterator<Item = f64> + Clone, is_whole: bool) -> (f64, f64) {
     let n = values.len().max(1) as f64;
     let mean = values.clone().sum::<f64>() / n;
-    let variance = values.map(|v| (v - mean).powi(2)).sum::<f64>() / n;
-    (mean, mean + CONFIDENCE * (variance / n).sqrt())
+    if is_whole {
+        return (mean, mean);
+    }
+    let variance = values.clone().map(|v| (v - mean).powi(2)).sum::<f64>() / n;
+    let worst = values.fold(0.0, f64::max);
+    (mean, mean + CONFIDENCE * (variance / n).sqrt() + 3.0 / n * worst)
 }
 
 #[cfg(test)]
@@ -358,8 +368,10 @@ mod tests {
     fn what_is_claimed_is_above_what_is_measured() {
         let (a, b) = (seen(&[0.5, 0.25, 0.0, 0.75]), seen(&[0.5, 0.5, 0.0, 0.75]));
         let errors = Errors::between(&a, &b).unwrap_or_default();
-        let [mean, above] = figure(Metric::Rmse, &errors, &a, &b);
+        let [mean, above] = figure(Metric::Rmse, &errors, &a, &b, false);
         assert!((mean - errors.rmse).abs() < 1e-9 && above > mean);
-        assert_eq!(figure(Metric::Max, &errors, &a, &b), [0.25; 2]);
+        assert_eq!(figure(Metric::Max, &errors, &a, &b, false), [0.25; 2]);
+        // Nothing is missed where everything is seen.
+        assert_eq!(figure(Metric::Rmse, &errors, &a, &b, true), [mean; 2]);
     }
 }

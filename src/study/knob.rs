@@ -12,6 +12,8 @@ pub enum Knob {
     Cutoff,
     /// Samples per pixel.
     Samples,
+    /// The threshold of adaptive antialiasing.
+    Adaptive,
     /// f32 or f64.
     Precision,
     /// The ray–triangle test.
@@ -26,10 +28,11 @@ pub enum Knob {
 
 impl Knob {
     /// All of them, in the order of tables.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Depth,
         Self::Cutoff,
         Self::Samples,
+        Self::Adaptive,
         Self::Precision,
         Self::Intersector,
         Self::Tessellation,
@@ -44,6 +47,7 @@ impl Knob {
             Self::Depth => "depth",
             Self::Cutoff => "cutoff",
             Self::Samples => "samples",
+            Self::Adaptive => "adaptive",
             Self::Precision => "precision",
             Self::Intersector => "intersector",
             Self::Tessellation => "tessellation",
@@ -59,6 +63,7 @@ impl Knob {
             Self::Depth => "Depth of the ray tree",
             Self::Cutoff => "Least weight of a traced ray",
             Self::Samples => "Samples per pixel",
+            Self::Adaptive => "Threshold of adaptive antialiasing, up to 64 samples",
             Self::Precision => "Precision",
             Self::Intersector => "Ray–triangle test",
             Self::Tessellation => "Tessellation of the built-in solids",
@@ -72,7 +77,7 @@ impl Knob {
     pub fn truth(self) -> Truth {
         match self {
             Self::Depth | Self::Cutoff => Truth::Truncation,
-            Self::Samples => Truth::Sampling,
+            Self::Samples | Self::Adaptive => Truth::Sampling,
             Self::Precision | Self::Intersector | Self::Effects | Self::Device => Truth::Arithmetic,
             Self::Tessellation => Truth::Tessellation,
         }
@@ -82,7 +87,7 @@ impl Knob {
     /// triangles.
     #[must_use]
     pub fn keeps_samples(self) -> bool {
-        !matches!(self, Self::Samples | Self::Tessellation)
+        !matches!(self, Self::Samples | Self::Adaptive | Self::Tessellation)
     }
 
     /// Whether the certified bound says something about the knob.

@@ -12,6 +12,10 @@ const DEPTHS: [u32; 6] = [1, 2, 4, 8, 16, 32];
 const CUTOFFS: [f32; 8] = [0.0625, 0.015_625, 0.003_906_25, 1e-3, 1e-4, 1e-5, 1e-6, 0.0];
 /// Samples per pixel that are tried.
 const SAMPLES: [u32; 7] = [1, 2, 4, 8, 16, 32, 64];
+/// Thresholds of adaptive antialiasing that are tried, with [`MOST_SAMPLES`].
+const THRESHOLDS: [f32; 4] = [0.1, 0.03, 0.01, 0.003];
+/// Samples that adaptive antialiasing may take.
+const MOST_SAMPLES: u32 = 64;
 /// Steps by which built-in solids are made finer or coarser.
 const STEPS: [i32; 4] = [-2, -1, 0, 1];
 
@@ -114,6 +118,14 @@ impl Plan<'_> {
                 .into(),
             Knob::Samples => SAMPLES
                 .map(|samples| self.changed(knob, f64::from(samples), Settings { samples, ..base }))
+                .into(),
+            Knob::Adaptive => THRESHOLDS
+                .map(|threshold| {
+                    let adaptive = Some(threshold);
+                    let settings = Settings { adaptive, samples: MOST_SAMPLES, ..base };
+                    let row = self.named(knob, &threshold.to_string(), settings);
+                    Row { value: Some(f64::from(threshold)), ..row }
+                })
                 .into(),
             Knob::Precision => [Precision::F32, Precision::F64]
                 .map(|precision| self.named(knob, precision_name(precision), Settings { precision, ..base }))
@@ -246,7 +258,7 @@ mod tests {
             let changes = [
                 a.depth != b.depth,
                 a.cutoff != b.cutoff,
-                a.samples != b.samples,
+                (a.samples, a.adaptive) != (b.samples, b.adaptive),
                 a.precision != b.precision,
                 a.intersector != b.intersector,
                 row.setup.target != base.target,

@@ -25,6 +25,9 @@ const FIRST_RUNS_UNTIL: f64 = 0.75;
 /// One first run may take this share of the study's time; but many samples, whose time can be foretold.
 const ROW_SHARE: f64 = 0.08;
 
+/// Samples that adaptive antialiasing is expected to take at the least.
+const ADAPTIVE_SAMPLES: u32 = 4;
+
 /// What to study.
 #[derive(Debug, Clone)]
 pub struct Config {
@@ -233,8 +236,8 @@ impl Course<'_> {
             .get(&Truth::Arithmetic)
             .map_or(started.elapsed(), |record| Duration::from_secs_f64(record.time_ms / 1e3));
         self.whole_tree(base, &arithmetic, &mut judges)?;
-        let wants = |knob| rows.iter().any(|row| row.knob == Some(knob));
-        if wants(Knob::Tessellation)
+        let wants = |truth| rows.iter().any(|row| row.knob.is_some_and(|knob| knob.truth() == truth));
+        if wants(Truth::Tessellation)
             && let Some(&finest) = plan.steps.iter().max()
         {
             self.say("reference: finest solids");
@@ -243,7 +246,7 @@ impl Course<'_> {
                 self.reference(Truth::Tessellation, |lab| reference::tessellation(lab, base, finest, limit))?;
             judges.extend(finest.map(|seen| (Truth::Tessellation, seen)));
         }
-        if wants(Knob::Samples) {
+        if wants(Truth::Sampling) {
             self.say("reference: many samples");
             let limit = self.budget.mul_f64(SAMPLING_SHARE);
             let many =
@@ -297,7 +300,7 @@ impl Course<'_> {
         let mut order: Vec<&Row> = rows.iter().collect();
         order.sort_by_key(|row| {
             let is_endless = row.setup.settings.cutoff == 0.0;
-            (row.knob == Some(Knob::Samples), is_endless)
+            (row.knob.is_some_and(|knob| knob.truth() == Truth::Sampling), is_endless)
         });
         for row in order {
             let id = row.id();
@@ -324,7 +327,9 @@ impl Course<'_> {
         };
         let left = self.budget.as_secs_f64() * FIRST_RUNS_UNTIL - self.spent();
         let base = self.report.baseline_row().map_or(0.0, RowRecord::time) / 1e3;
-        let expected = base * f64::from(row.setup.settings.samples);
+        // How many samples adaptive antialiasing takes is for the picture to say: some at the least.
+        let samples = if knob == Knob::Adaptive { ADAPTIVE_SAMPLES } else { row.setup.settings.samples };
+        let expected = base * f64::from(samples);
         if expected > left {
             return Err(format!("would take about {expected:.0} s: allow more with --budget"));
         }
@@ -333,7 +338,8 @@ impl Course<'_> {
         {
             return Err("as its first row".to_owned());
         }
-        let share = if knob == Knob::Samples { left } else { self.budget.as_secs_f64() * ROW_SHARE };
+        let share =
+            if knob.truth() == Truth::Sampling { left } else { self.budget.as_secs_f64() * ROW_SHARE };
         Ok(Duration::from_secs_f64(share.min(left).max(0.0)))
     }
 

@@ -1,5 +1,7 @@
 //! The tree drawn, and beside it the path of its rays through the scene cut open.
 
+use std::collections::BTreeMap;
+
 use super::section::{Flat, Plane, widen};
 use super::{End, Node, Tree};
 use crate::film::srgb_code;
@@ -149,10 +151,18 @@ fn draw_side(
         "from the side, cut along the first ray",
         text(12.0, "#5a5a5a", Anchor::Start),
     );
+    // Each body's section, and its name over the highest point of it.
+    let mut tops: BTreeMap<u32, Flat> = BTreeMap::new();
     for (body, ends) in plane.cut(scene) {
         if let Some([a, b]) = frame.clip(ends) {
             canvas.line(a, b, BODIES[body as usize % BODIES.len()], 1.0, "");
+            let top = tops.entry(body).or_insert(a);
+            *top = if a[1] < top[1] { a } else { *top };
         }
+    }
+    for (body, [x, y]) in tops {
+        let name = scene.bodies.get(body as usize).map_or("", |body| body.name.as_str());
+        canvas.text([x, y - 4.0], name, text(11.0, BODIES[body as usize % BODIES.len()], Anchor::Middle));
     }
     for &id in shown.iter().rev() {
         let node = &tree.nodes[id];

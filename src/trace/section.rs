@@ -2,31 +2,31 @@
 
 use crate::layout::{FlatScene, TreeNode};
 
-/// A point of the drawing plane: along the first ray, and across it.
+/// A point of the drawing plane: onwards, and up.
 pub(super) type Flat = [f64; 2];
 
 /// A plane through the first ray, upright where the ray is not.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Plane {
     origin: [f64; 3],
-    along: [f64; 3],
-    across: [f64; 3],
+    onwards: [f64; 3],
+    up: [f64; 3],
     normal: [f64; 3],
 }
 
 impl Plane {
     /// The plane of the first ray and the vertical; of the ray and an axis across where it is vertical itself.
     pub(super) fn of(first: &TreeNode) -> Self {
-        let along = unit(widen(first.direction));
-        let upright = if along[1].abs() > 0.99 { [0.0, 0.0, 1.0] } else { [0.0, 1.0, 0.0] };
-        let normal = unit(cross(along, upright));
-        Self { origin: widen(first.origin), along, across: cross(normal, along), normal }
+        let direction = unit(widen(first.direction));
+        let up = if direction[1].abs() > 0.99 { [0.0, 0.0, 1.0] } else { [0.0, 1.0, 0.0] };
+        let normal = unit(cross(direction, up));
+        Self { origin: widen(first.origin), onwards: cross(up, normal), up, normal }
     }
 
     /// Where a point is seen.
     pub(super) fn project(&self, point: [f64; 3]) -> Flat {
         let from = sub(point, self.origin);
-        [dot(from, self.along), dot(from, self.across)]
+        [dot(from, self.onwards), dot(from, self.up)]
     }
 
     /// How far a point is in front of the plane.
@@ -95,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_ray_runs_along_and_up_is_across() {
+    fn the_first_ray_runs_onwards_and_up_is_up() {
         assert_eq!(plane().project([7.0, 1.0, 2.0]), [3.0, 0.0]);
         assert_eq!(plane().project([0.0, 3.0, 5.0]), [0.0, 2.0]);
     }
@@ -114,6 +114,6 @@ mod tests {
     fn a_vertical_ray_has_a_plane_too() {
         let first = TreeNode { direction: [0.0, 1.0, 0.0], ..TreeNode::default() };
         let plane = Plane::of(&first);
-        assert!((dot(plane.across, plane.along)).abs() < 1e-12 && dot(plane.across, plane.across) > 0.99);
+        assert!((dot(plane.up, plane.onwards)).abs() < 1e-12 && dot(plane.onwards, plane.onwards) > 0.99);
     }
 }

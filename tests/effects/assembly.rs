@@ -23,8 +23,8 @@ fn assembled(name: &str) -> (String, Vec<String>) {
     (shader.wgsl, names)
 }
 
-/// Records that the host fills for every scene alike: their fields stay.
-const SHARED: [&str; 3] = ["Material.", "View.", "FilmHead."];
+/// Records that the host fills for every scene alike, and the picture itself: their fields stay.
+const SHARED: [&str; 4] = ["Material.", "View.", "FilmHead.", "Film.texels"];
 
 fn assert_absent(scene: &str, words: &[&str]) {
     let (_, names) = assembled(scene);

@@ -34,10 +34,12 @@ fn touched(subject: &Subject) -> EffectSet {
         trace_pixel::<f32>(&world, &mut stack, [x, y], 0..view.samples, &mut texel, &mut aov, None);
     }
     let noted = noted.into_inner();
-    // The settings decide about auxiliary pictures.
+    // The settings decide about auxiliary pictures and refinement.
     Effect::ALL
         .into_iter()
-        .filter(|&effect| noted >> effect as u32 & 1 == 1 && effect != Effect::Aovs)
+        .filter(|&effect| {
+            noted >> effect as u32 & 1 == 1 && !matches!(effect, Effect::Aovs | Effect::Adaptive)
+        })
         .collect()
 }
 
@@ -50,8 +52,13 @@ fn a_general_run_touches_nothing_that_the_scan_left_out() {
         assert!(called_for.has_all(touched), "scene {number} touches {}", touched.minus(called_for));
         seen = seen.iter().chain(touched.iter()).collect();
     }
-    use Effect::{Adaptive, Antialiasing, Aovs, Environment, Textures};
-    let textured_or_sampled = EffectSet::of(&[Textures, Environment, Antialiasing, Adaptive, Aovs]);
+    let textured_or_sampled = EffectSet::of(&[
+        Effect::Textures,
+        Effect::Environment,
+        Effect::Antialiasing,
+        Effect::Adaptive,
+        Effect::Aovs,
+    ]);
     assert_eq!(EffectSet::ALL.minus(seen), textured_or_sampled, "the scenes touch {seen}");
 }
 

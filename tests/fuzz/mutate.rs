@@ -2,10 +2,12 @@
 
 use std::ops::Range;
 
+use snellius::selftest::Random;
+
 /// The longest input, in bytes.
 const MOST_BYTES: usize = 1 << 16;
 /// The most changes of one input.
-const MOST_CHANGES: u64 = 12;
+const MOST_CHANGES: usize = 12;
 
 /// Numbers at the ends of what a reader, f32, f64 or an integer can hold.
 const EXTREMES: [&str; 40] = [
@@ -54,44 +56,16 @@ const EXTREMES: [&str; 40] = [
 /// Sizes and offsets of binary files at the ends of what they can hold.
 const WORDS: [u32; 10] = [0, 1, 0x7f, 0xff, 0x7fff, 0xffff, 0xea60, 0x7fff_ffff, 0x8000_0000, 0xffff_ffff];
 
-/// Random numbers that are the same on every machine (Steele, Lea, Flood 2014, "Fast splittable pseudorandom number
-/// generators", SplitMix64).
-pub(super) struct Random(pub(super) u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// Below `end`; 0 where that is 0.
-    fn below(&mut self, end: usize) -> usize {
-        (self.next() % end.max(1) as u64) as usize
-    }
-
-    fn one_of<'a, T>(&mut self, items: &'a [T]) -> &'a T {
-        &items[self.below(items.len())]
-    }
-
-    /// A part of `0..len`, short ones more often.
-    fn part(&mut self, len: usize) -> Range<usize> {
-        let start = self.below(len);
-        let most = (len - start).min(1 << self.below(12));
-        start..start + self.below(most + 1)
-    }
-}
-
 /// Input number `number` of a corpus of at least one seed: the same for ever, while the corpus stays.
 pub(super) fn input(corpus: &[Vec<u8>], number: u64) -> Vec<u8> {
-    let mut random = Random(number.wrapping_mul(0x2545_f491_4f6c_dd1d));
-    let mut bytes = random.one_of(corpus).clone();
+    let mut random = Random::new(&number.to_string());
+    let mut bytes = one_of(&mut random, corpus).clone();
     let is_text = std::str::from_utf8(&bytes).is_ok_and(|text| !text.starts_with("#?RADIANCE"));
     // One change is as likely as two to four, and as five to twelve: some faults take several, most are hidden by them.
-    let changes = [1, 1 + random.next() % 4, 1 + random.next() % MOST_CHANGES][random.below(3)];
+    let most = *one_of(&mut random, &[1, 4, MOST_CHANGES]);
+    let changes = 1 + below(&mut random, most);
     for _ in 0..changes {
-        match random.below(4) {
+        match below(&mut random, 4) {
             0 => change_bytes(&mut bytes, &mut random),
             _ if is_text => change_text(&mut bytes, corpus, &mut random),
             _ => change_word(&mut bytes, &mut random),
@@ -99,29 +73,45 @@ pub(super) fn input(corpus: &[Vec<u8>], number: u64) -> Vec<u8> {
         bytes.truncate(MOST_BYTES);
     }
     // Most readers stop at a wrong checksum.
-    if random.below(8) != 0 {
+    if below(&mut random, 8) != 0 {
         png::mend(&mut bytes);
     }
     bytes
 }
 
+/// Below `end`; 0 where that is 0.
+fn below(random: &mut Random, end: usize) -> usize {
+    random.below(end.max(1) as u32) as usize
+}
+
+fn one_of<'a, T>(random: &mut Random, items: &'a [T]) -> &'a T {
+    &items[below(random, items.len())]
+}
+
+/// A part of `0..len`, short ones more often.
+fn part(random: &mut Random, len: usize) -> Range<usize> {
+    let start = below(random, len);
+    let longest = 1 << below(random, 12);
+    start..start + below(random, (len - start).min(longest) + 1)
+}
+
 /// Flip, set, cut out, double, move or cut off bytes.
 fn change_bytes(bytes: &mut Vec<u8>, random: &mut Random) {
-    let part = random.part(bytes.len());
-    match random.below(8) {
+    let part = part(random, bytes.len());
+    match below(random, 8) {
         0..=2 => {
-            let at = random.below(bytes.len());
-            let bit = 1 << random.below(8);
+            let at = below(random, bytes.len());
+            let bit = 1 << below(random, 8);
             bytes.get_mut(at).into_iter().for_each(|byte| *byte ^= bit);
         }
         3 => {
-            let byte = random.next() as u8;
+            let byte = random.word() as u8;
             bytes.insert(part.start, byte);
         }
         4 => drop(bytes.drain(part)),
         5 => {
             let copy = bytes[part].to_vec();
-            let at = random.below(bytes.len() + 1);
+            let at = below(random, bytes.len() + 1);
             bytes.splice(at..at, copy);
         }
         6 => bytes[part].reverse(),
@@ -131,11 +121,11 @@ fn change_bytes(bytes: &mut Vec<u8>, random: &mut Random) {
 
 /// Set 1, 2 or 4 bytes of either order.
 fn change_word(bytes: &mut [u8], random: &mut Random) {
-    let word = *random.one_of(&WORDS);
+    let word = *one_of(random, &WORDS);
     let (big, little) = (word.to_be_bytes(), word.to_le_bytes());
     let choices: [&[u8]; 5] = [&big[3..], &big[2..], &little[..2], &big, &little];
-    let chosen = *random.one_of(&choices);
-    let at = random.below((bytes.len() + 1).saturating_sub(chosen.len()));
+    let chosen = *one_of(random, &choices);
+    let at = below(random, (bytes.len() + 1).saturating_sub(chosen.len()));
     if let Some(place) = bytes.get_mut(at..at + chosen.len()) {
         place.copy_from_slice(chosen);
     }
@@ -145,32 +135,32 @@ fn change_word(bytes: &mut [u8], random: &mut Random) {
 fn change_text(bytes: &mut Vec<u8>, corpus: &[Vec<u8>], random: &mut Random) {
     let (tokens, lines) = (tokens(bytes), lines(bytes));
     if tokens.is_empty() || lines.is_empty() {
-        return bytes.extend_from_slice(random.one_of(corpus).as_slice());
+        return bytes.extend_from_slice(one_of(random, corpus).as_slice());
     }
-    let token = random.one_of(&tokens).clone();
-    let line = random.one_of(&lines).clone();
-    match random.below(8) {
+    let token = one_of(random, &tokens).clone();
+    let line = one_of(random, &lines).clone();
+    match below(random, 8) {
         0..=2 => {
             let numbers: Vec<_> = tokens.iter().filter(|token| is_number(&bytes[(*token).clone()])).collect();
             if numbers.is_empty() {
                 return;
             }
-            let place = (*random.one_of(&numbers)).clone();
-            let number = match random.below(3) {
-                0 => format!("{}", random.below(12)),
-                1 => format!("{}.{}", random.below(4), random.below(1000)),
-                _ => (*random.one_of(&EXTREMES)).to_owned(),
+            let place = (*one_of(random, &numbers)).clone();
+            let number = match below(random, 3) {
+                0 => format!("{}", below(random, 12)),
+                1 => format!("{}.{}", below(random, 4), below(random, 1000)),
+                _ => (*one_of(random, &EXTREMES)).to_owned(),
             };
             bytes.splice(place, number.into_bytes());
         }
         3 => {
-            let other = random.one_of(corpus);
+            let other = one_of(random, corpus);
             let words = self::tokens(other);
-            let word = other[random.one_of(&words).clone()].to_vec();
+            let word = other[one_of(random, &words).clone()].to_vec();
             bytes.splice(token, word);
         }
         4 => {
-            let other = random.one_of(&tokens).clone();
+            let other = one_of(random, &tokens).clone();
             let (first, second) = if token.start < other.start { (token, other) } else { (other, token) };
             if first != second {
                 let (a, b) = (bytes[first.clone()].to_vec(), bytes[second.clone()].to_vec());
@@ -180,15 +170,15 @@ fn change_text(bytes: &mut Vec<u8>, corpus: &[Vec<u8>], random: &mut Random) {
         }
         5 => drop(bytes.drain(line)),
         6 => {
-            let copies = 1 << random.below(7);
+            let copies = 1 << below(random, 7);
             let line = bytes[line].repeat(copies);
-            let at = random.one_of(&lines).start;
+            let at = one_of(random, &lines).start;
             bytes.splice(at..at, line);
         }
         _ => {
-            let other = random.one_of(corpus);
-            let line = other[random.one_of(&self::lines(other)).clone()].to_vec();
-            let at = random.one_of(&lines).start;
+            let other = one_of(random, corpus);
+            let line = other[one_of(random, &self::lines(other)).clone()].to_vec();
+            let at = one_of(random, &lines).start;
             bytes.splice(at..at, line);
         }
     }

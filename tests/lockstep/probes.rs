@@ -30,6 +30,7 @@ const COVERED: &[(&str, &str)] = &[
     ("greatest", "slabs"),
     ("index_of", "scatter"),
     ("intersect_triangle", "intersect"),
+    ("is_usable", "intersect"),
     ("is_transmissive", "transmittance"),
     ("keep", "the trees"),
     ("least", "slabs"),

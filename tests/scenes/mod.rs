@@ -8,8 +8,9 @@ use snellius::cpu::CpuRenderer;
 use snellius::film::{Frame, Renderer};
 use snellius::flatten;
 use snellius::gpu::{GpuOptions, GpuRenderer};
-use snellius::layout::{FlatScene, Float, Precision, Settings, Texel, View};
+use snellius::layout::{FlatScene, Float, Precision, Settings, View};
 use snellius::scene::Scene;
+use snellius::selftest::{Agreement, LEAST_EQUAL_F64, greatest_difference};
 
 use crate::lockstep::devices::on_each;
 
@@ -58,16 +59,6 @@ fn scenes() -> Vec<PathBuf> {
     scenes
 }
 
-/// Every bit of a pixel.
-fn bits(texel: &Texel) -> [u32; 8] {
-    bytemuck::cast(*texel)
-}
-
-fn share(a: &Frame, b: &Frame, same: impl Fn(&Texel, &Texel) -> bool) -> f64 {
-    let equal = a.texels.iter().zip(&b.texels).filter(|(a, b)| same(a, b)).count();
-    equal as f64 / a.texels.len() as f64
-}
-
 #[test]
 fn strict_adapters_give_the_bits_and_ray_counts_of_the_cpu_on_every_scene() {
     for path in scenes() {
@@ -76,9 +67,8 @@ fn strict_adapters_give_the_bits_and_ray_counts_of_the_cpu_on_every_scene() {
         on_each(|options| {
             let gpu = subject.on_gpu(Float::Strict, options);
             assert_eq!(gpu.float, Float::Strict);
-            let equal = share(&cpu, &gpu, |a, b| bits(a) == bits(b));
-            assert_eq!(equal, 1.0, "{} on {options:?}", subject.name);
-            assert_eq!(cpu.rays, gpu.rays, "{} on {options:?}", subject.name);
+            let agreement = Agreement::between(&cpu, &gpu);
+            assert!(agreement.is_exact(), "{} on {options:?}: {agreement:?}", subject.name);
         });
     }
 }
@@ -88,21 +78,11 @@ fn f64_takes_the_same_paths_on_every_scene() {
     for path in scenes() {
         let subject = Subject::load(&path);
         let (single, double) = (subject.on_cpu(Precision::F32, 0), subject.on_cpu(Precision::F64, 0));
-        let same_path = |a: &Texel, b: &Texel| a.body_hash == b.body_hash;
-        let equal = share(&single, &double, same_path);
-        assert!(equal >= 0.97, "{}: {equal}", subject.name);
-        // Where they agree, the 99th percentile of the largest channel's difference is small.
-        let pairs = single.texels.iter().zip(&double.texels).filter(|(a, b)| same_path(a, b));
-        let mut differences: Vec<f32> = pairs.map(|(a, b)| largest_difference(a, b)).collect();
-        differences.sort_by(f32::total_cmp);
-        let p99 = differences[differences.len() * 99 / 100];
-        let max_radiance = subject.flat.radiance_bound.last().copied().unwrap();
-        assert!(p99 <= 1e-4 * max_radiance.max(1.0), "{}: {p99}", subject.name);
+        let agreement = Agreement::between(&single, &double);
+        let most = greatest_difference(subject.flat.radiance_bound.last().copied().unwrap());
+        let holds = agreement.same_bodies >= LEAST_EQUAL_F64 && agreement.p99 <= most;
+        assert!(holds, "{}: {agreement:?}, at most {most}", subject.name);
     }
-}
-
-fn largest_difference(a: &Texel, b: &Texel) -> f32 {
-    a.radiance.iter().zip(b.radiance).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
 }
 
 #[test]
@@ -123,8 +103,7 @@ fn the_number_of_threads_never_shows() {
     for path in scenes().into_iter().filter(|path| !path.ends_with("city.toml")) {
         let subject = Subject::load(&path);
         let (one, three) = (subject.on_cpu(Precision::F32, 1), subject.on_cpu(Precision::F32, 3));
-        assert_eq!(share(&one, &three, |a, b| bits(a) == bits(b)), 1.0, "{path:?}");
-        assert_eq!(one.rays, three.rays);
+        assert!(Agreement::between(&one, &three).is_exact(), "{path:?}");
     }
 }
 

@@ -97,6 +97,11 @@ const FAULTS: &[Fault] = &[
         change: ("surface", "(EDGE_ROUNDOFFS * ROUNDOFF)", "0.0"),
     },
     Fault {
+        case: "T14",
+        what: "ties that go to the highest id",
+        change: ("bvh", "tri.id < best.id", "tri.id > best.id"),
+    },
+    Fault {
         case: "T15",
         what: "the weight of a corner forgotten",
         change: ("surface", "let b0 = 1.0 - hit.b1 - hit.b2;", "let b0 = 1.0 - hit.b1;"),
@@ -112,6 +117,11 @@ const FAULTS: &[Fault] = &[
         change: ("surface", "let b0 = 1.0 - hit.b1 - hit.b2;", "let b0 = 1.000002 - hit.b1 - hit.b2;"),
     },
     Fault {
+        case: "T18",
+        what: "rays that enter boxes with a NaN",
+        change: ("bvh", "if !is_usable(ray) {", "if false {"),
+    },
+    Fault {
         case: "T19",
         what: "reflected rays that enter the face",
         change: ("material", "turn_towards(mirrored, surface.face_normal)", "mirrored"),
@@ -120,6 +130,25 @@ const FAULTS: &[Fault] = &[
         case: "T19",
         what: "shadow rays from the flat face",
         change: ("surface", "if height < 0.0 {", "if height < -1e30 {"),
+    },
+    Fault {
+        case: "T20",
+        what: "a mirror that is off by an ULP",
+        change: (
+            "material",
+            "let mirrored = direction + n * (c + c);",
+            "let mirrored = direction + n * (c + c) * 1.0000001;",
+        ),
+    },
+    Fault {
+        case: "T21",
+        what: "a rest that forgets the waiting rays",
+        change: ("whitted", "film.lanes[lane].stack_size = stack_size;", "film.lanes[lane].stack_size = 0u;"),
+    },
+    Fault {
+        case: "T22",
+        what: "rays that are cut without account",
+        change: ("whitted", "sample.dropped = sample.dropped + weight;", ""),
     },
     Fault {
         case: "C1",

