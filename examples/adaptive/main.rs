@@ -33,7 +33,7 @@ struct Arguments {
     #[arg(default_value = "scenes/ice.toml")]
     scene: PathBuf,
     /// Width and height in pixels
-    #[arg(long, num_args = 2, value_names = ["W", "H"], default_values_t = [480, 270])]
+    #[arg(long, num_args = 2, value_names = ["W", "H"], default_values_t = [384, 216])]
     size: Vec<u32>,
     /// Samples of a pixel of the picture that is taken for the truth
     #[arg(long, default_value_t = 256)]
@@ -42,7 +42,7 @@ struct Arguments {
     #[arg(long, value_delimiter = ',', default_values_t = [2, 4, 8, 16, 32, 64])]
     uniform: Vec<u32>,
     /// Thresholds of adaptive pictures
-    #[arg(long, value_delimiter = ',', default_values_t = [0.02, 0.01, 0.005])]
+    #[arg(long, value_delimiter = ',', default_values_t = [0.02, 0.01])]
     thresholds: Vec<f32>,
     /// Most samples of a pixel in adaptive pictures
     #[arg(long, default_value_t = 64)]

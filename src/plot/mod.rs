@@ -1,6 +1,6 @@
 //! Figures for print and screen: SVG of our own, and PNG of the same SVG.
 //!
-//! A [`Figure`] is a row of [`Panel`]s: points and lines over two axes, named where they are (direct labels,
+//! A `Figure` is a row of `Panel`s: points and lines over two axes, named where they are (direct labels,
 //! no legend). Text is set in a font that lies in the binary, so that plots look alike on a machine without any.
 
 mod canvas;

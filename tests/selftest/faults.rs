@@ -98,8 +98,8 @@ const FAULTS: &[Fault] = &[
     },
     Fault {
         case: "T14",
-        what: "ties that go to the highest id",
-        change: ("bvh", "tri.id < best.id", "tri.id > best.id"),
+        what: "a rest that forgets the waiting rays",
+        change: ("whitted", "film.lanes[lane].stack_size = stack_size;", "film.lanes[lane].stack_size = 0u;"),
     },
     Fault {
         case: "T15",
