@@ -98,8 +98,13 @@ const FAULTS: &[Fault] = &[
     },
     Fault {
         case: "T14",
-        what: "a rest that forgets the waiting rays",
-        change: ("whitted", "film.lanes[lane].stack_size = stack_size;", "film.lanes[lane].stack_size = 0u;"),
+        what: "ties that go to the face met first",
+        change: ("bvh", "(t == best.t && tri.id < best.id)", "false"),
+    },
+    Fault {
+        case: "T14",
+        what: "ties that go to the face met last",
+        change: ("bvh", "tri.id < best.id", "true"),
     },
     Fault {
         case: "T15",

@@ -5,8 +5,8 @@ use super::report::{CaseResult, Figure, Limit, Report};
 
 /// Characters in a line.
 const WIDTH: usize = 100;
-/// Characters of a device's column, at least.
-const COLUMN: usize = 19;
+/// Characters between columns.
+const GAP: usize = 2;
 
 /// The adapters' arithmetic; a table case × device; then what is beyond its bound, or if `verbose` everything.
 pub(super) fn tables(report: &Report, verbose: bool) -> String {
@@ -20,22 +20,26 @@ pub(super) fn tables(report: &Report, verbose: bool) -> String {
 
 /// A table of labelled rows under these heads, in parts where it is too wide.
 pub(super) fn columns(heads: &[String], rows: &[(String, Vec<String>)]) -> String {
-    let label = rows.iter().map(|(label, _)| label.chars().count()).max().unwrap_or(0) + 2;
-    let fitting = (WIDTH.saturating_sub(label) / COLUMN).max(1);
+    let widest = |cells: &mut dyn Iterator<Item = &String>| {
+        cells.map(|cell| cell.chars().count()).max().unwrap_or(0) + GAP
+    };
+    let label = widest(&mut rows.iter().map(|(label, _)| label));
+    let column = widest(&mut heads.iter().chain(rows.iter().flat_map(|(_, cells)| cells)));
+    let fitting = (WIDTH.saturating_sub(label) / column).max(1);
     let mut text = String::new();
     for first in (0..heads.len()).step_by(fitting) {
         let end = heads.len().min(first + fitting);
-        text += &line(&" ".repeat(label), &heads[first..end]);
+        text += &line(&" ".repeat(label), &heads[first..end], column);
         for (name, cells) in rows {
-            text += &line(&format!("{name:label$}"), &cells[first..end]);
+            text += &line(&format!("{name:label$}"), &cells[first..end], column);
         }
         text.push('\n');
     }
     text
 }
 
-fn line(label: &str, cells: &[String]) -> String {
-    let cells: String = cells.iter().map(|cell| format!("{cell:<COLUMN$}")).collect();
+fn line(label: &str, cells: &[String], column: usize) -> String {
+    let cells: String = cells.iter().map(|cell| format!("{cell:<column$}")).collect();
     format!("{}\n", format!("{label}{cells}").trim_end())
 }
 
@@ -171,6 +175,14 @@ mod tests {
         let exact = Limit::Near { expected: 3.0, within: 0.0 };
         assert_eq!(cell_of(vec![figure(3.0, exact, true)]), "3 as on paper");
         assert_eq!(cell_of(vec![figure(4.0, exact, false)]), "✗ 4 ≠ 3");
+    }
+
+    #[test]
+    fn no_column_runs_into_the_next() {
+        let heads = ["SwiftShader Device strict", "CPU"].map(str::to_owned);
+        let table = columns(&heads, &[("T1".to_owned(), vec!["0 of 2000".to_owned(), "0".to_owned()])]);
+        let lines: Vec<_> = table.lines().collect();
+        assert_eq!((lines[0].find("CPU"), lines[1].rfind('0')), (Some(31), Some(31)), "{table}");
     }
 
     #[test]

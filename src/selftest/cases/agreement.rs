@@ -44,10 +44,10 @@ fn agreement(device: &mut dyn Device, effort: Effort) -> Result<Vec<Finding>, De
     Ok(findings)
 }
 
-/// Scene files of the folder `scenes`, in order.
+/// Scene files and bare meshes of the folder `scenes`, in order.
 fn scene_files() -> Vec<PathBuf> {
     let entries = std::fs::read_dir(Path::new("scenes")).into_iter().flatten().flatten();
-    let is_scene = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "toml");
+    let is_scene = |path: &PathBuf| path.extension().is_some_and(|end| end == "toml" || end == "obj");
     let mut paths: Vec<_> = entries.map(|entry| entry.path()).filter(is_scene).collect();
     paths.sort();
     paths

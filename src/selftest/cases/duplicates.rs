@@ -2,11 +2,15 @@
 //!
 //! Two equal faces are hit at the same distance, bit for bit, and ties go to the lowest primitive id: copies behind the
 //! originals never show. The bound is 0 pixels, for any rounding.
+//!
+//! Copies in a scene are merged before a device sees them, and so are those of two bodies that coincide. Others are put
+//! among the flattened triangles, where only the device's own rule for ties keeps them from showing.
 
 use glam::DVec3;
 
-use crate::layout::Texel;
-use crate::scene::{Falloff, Light, Material, MaterialId, Mesh, Model, Scene};
+use crate::bvh;
+use crate::layout::{FlatScene, Texel, Triangle};
+use crate::scene::{Diagnostic, Falloff, Light, Material, MaterialId, Mesh, Model, Scene, SceneError};
 use crate::selftest::{Bound, Case, Device, DeviceError, Effort, Finding, Random, Stage, solids};
 
 /// Duplicated faces.
@@ -18,6 +22,16 @@ pub(super) const T14: Case = Case {
     run: duplicates,
 };
 
+/// Where the copies are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Copies {
+    Nowhere,
+    /// In the scene: flattening merges them.
+    InScene,
+    /// Among the flattened triangles: every device meets them.
+    InFlatScene,
+}
+
 fn duplicates(device: &mut dyn Device, effort: Effort) -> Result<Vec<Finding>, DeviceError> {
     let size = match effort {
         Effort::Quick => [24, 18],
@@ -26,18 +40,20 @@ fn duplicates(device: &mut dyn Device, effort: Effort) -> Result<Vec<Finding>, D
     };
     let mut findings = Vec::new();
     for (name, transmissive) in [("painted ball", false), ("ball of ice", true)] {
-        let plain = stage(size, transmissive, false)?;
-        let double = stage(size, transmissive, true)?;
+        let plain = stage(size, transmissive, Copies::Nowhere)?;
         let reference = device.picture(&plain, &plain.settings)?;
-        for (way, picture) in device.shared_out(&double, &double.settings)? {
-            let pixels = reference.texels.iter().zip(&picture.texels);
-            let differing = pixels.filter(|(a, b)| seen(a) != seen(b)).count();
-            findings.push(Finding {
-                what: format!("pixels of the {name} that show copies, {way}"),
-                figure: differing as f64,
-                bound: Bound::AtMost(0.0),
-                trials: picture.texels.len() as u64,
-            });
+        for (place, copies) in [("scene", Copies::InScene), ("flat scene", Copies::InFlatScene)] {
+            let double = stage(size, transmissive, copies)?;
+            for (way, picture) in device.shared_out(&double, &double.settings)? {
+                let pixels = reference.texels.iter().zip(&picture.texels);
+                let differing = pixels.filter(|(a, b)| seen(a) != seen(b)).count();
+                findings.push(Finding {
+                    what: format!("pixels of the {name} that show copies in the {place}, {way}"),
+                    figure: differing as f64,
+                    bound: Bound::AtMost(0.0),
+                    trials: picture.texels.len() as u64,
+                });
+            }
         }
     }
     Ok(findings)
@@ -50,7 +66,8 @@ fn seen(texel: &Texel) -> ([u32; 3], u32) {
 
 /// A bumpy ball over a mirror, under a lamp. Copies of an opaque mesh's faces are faces of it, in random order; the copy
 /// of a transmissive one, which must be closed, is a second body.
-fn stage(size: [u32; 2], transmissive: bool, is_double: bool) -> Result<Stage, DeviceError> {
+fn stage(size: [u32; 2], transmissive: bool, copies: Copies) -> Result<Stage, DeviceError> {
+    let is_double = copies == Copies::InScene;
     let mesh = solids::jittered_sphere(12, &mut Random::new("duplicates"));
     let paint = Material {
         diffuse: DVec3::new(0.7, 0.5, 0.3),
@@ -75,16 +92,41 @@ fn stage(size: [u32; 2], transmissive: bool, is_double: bool) -> Result<Stage, D
         intensity: DVec3::ONE,
         falloff: Falloff::None,
     });
-    Stage::new(&scene)
+    let stage = Stage::new(&scene)?;
+    if copies != Copies::InFlatScene {
+        return Ok(stage);
+    }
+    Ok(Stage { flat: doubled_flat(stage.flat)?, ..stage })
 }
 
 /// Every face once more, behind all the others, in another order.
 fn doubled(mut mesh: Mesh) -> Mesh {
     let mut copies = mesh.triangles.clone();
-    let mut random = Random::new("copies");
-    for last in (1..copies.len()).rev() {
-        copies.swap(last, random.below(last as u32 + 1) as usize);
-    }
+    shuffle(&mut copies);
     mesh.triangles.extend(copies);
     mesh
+}
+
+/// Every triangle once more, with a higher id, in a tree in which either of two may come first.
+fn doubled_flat(flat: FlatScene) -> Result<FlatScene, SceneError> {
+    let count = flat.attributes.len() as u32;
+    let copies = flat.triangles.iter().map(|triangle| Triangle { id: triangle.id + count, ..*triangle });
+    let mut triangles: Vec<_> = flat.triangles.iter().copied().chain(copies).collect();
+    shuffle(&mut triangles);
+    let tree = bvh::build(&triangles, bvh::Preset::default()).map_err(|e| Diagnostic::error(e.to_string()))?;
+    Ok(FlatScene {
+        triangles: tree.order.iter().map(|&index| triangles[index as usize]).collect(),
+        nodes: tree.nodes,
+        bvh_depth: tree.depth,
+        attributes: flat.attributes.repeat(2),
+        ..flat
+    })
+}
+
+/// Put them in an order that is the same for ever (Fisher and Yates).
+fn shuffle<T>(items: &mut [T]) {
+    let mut random = Random::new("copies");
+    for last in (1..items.len()).rev() {
+        items.swap(last, random.below(last as u32 + 1) as usize);
+    }
 }
