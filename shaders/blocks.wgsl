@@ -3,14 +3,22 @@
 import package::bindings::{film, frame};
 import package::constants::{BLOCK, NONE};
 
-// The pixel's slot in the film, or NONE outside the picture.
-fn slot_in_block(group: u32, local: vec2u) -> u32 {
-    let crop = frame.view.crop;
-    let columns = (crop.z + BLOCK - 1u) / BLOCK;
+// Where invocation `index` of a group lies in the crop; beyond it in blocks that its edges cut.
+//
+// Invocations that run in step are neighbours both ways: four pixels by two for eight, eight by four for 32.
+fn place_in_block(group: u32, index: u32) -> vec2u {
+    let columns = (frame.view.crop.z + BLOCK - 1u) / BLOCK;
     let block = film.head.tile.first_block + group;
-    let x = (block % columns) * BLOCK + local.x;
-    let y = (block / columns) * BLOCK + local.y;
-    return select(NONE, (y - film.head.tile.first_row) * crop.z + x, x < crop.z && y < crop.w);
+    let row = block / columns;
+    let corner = vec2u(block - row * columns, row) * BLOCK;
+    return corner + vec2u((index & 3u) | ((index >> 1u) & 4u), ((index >> 2u) & 1u) | ((index >> 3u) & 6u));
+}
+
+// The slot in the film of a place in the crop, or NONE outside of it.
+fn slot_at(place: vec2u) -> u32 {
+    let crop = frame.view.crop;
+    let slot = (place.y - film.head.tile.first_row) * crop.z + place.x;
+    return select(NONE, slot, place.x < crop.z && place.y < crop.w);
 }
 
 // The listed pixel's slot, or NONE behind the last entry.

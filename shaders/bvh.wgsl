@@ -3,7 +3,7 @@
 import package::real::{real, vec3r, least, greatest};
 import package::triangle::{Shear, shear_of, intersect_triangle};
 import package::records::Triangle;
-import package::bindings::{frame, nodes, triangles};
+import package::bindings::{frame, node_at, triangle_at};
 import package::constants::{
     BVH_STACK, FAR, LEAST_DIRECTION, LOOP_STEPS, MOST_REACH, NODE_STEPS, NONE, ORIGIN_PADDING, SLAB_PADDING,
 };
@@ -72,7 +72,7 @@ fn slabs(ray: Ray, lo: vec3r, hi: vec3r) -> Span {
 
 // The hit on one triangle if it is nearer than `best`, or as near with a lower id; else `best`.
 fn nearer(ray: Ray, index: u32, best: Hit) -> Hit {
-    let tri = triangles[index];
+    let tri = triangle_at(index);
     if tri.id == ray.origin_face {
         return best;
     }
@@ -139,7 +139,7 @@ fn intersect(ray: Ray, limit: real) -> Hit {
                 break;
             }
             // Meet both children.
-            let node = nodes[at];
+            let node = node_at(at);
             let a = slabs(ray, vec3r(node.a_lo), vec3r(node.a_hi));
             let b = slabs(ray, vec3r(node.b_lo), vec3r(node.b_hi));
             let hits_a = a.entry <= a.exit && a.entry <= best.t;
@@ -212,7 +212,7 @@ fn occluded(ray: Ray, limit: real) -> bool {
                 break;
             }
             // Meet both children.
-            let node = nodes[at];
+            let node = node_at(at);
             let a = slabs(ray, vec3r(node.a_lo), vec3r(node.a_hi));
             let b = slabs(ray, vec3r(node.b_lo), vec3r(node.b_hi));
             let hits_a = a.entry <= a.exit && a.entry <= limit;

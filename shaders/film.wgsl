@@ -7,8 +7,8 @@ import package::constants::LEAST_NORMAL;
 // What one sample gives the film.
 struct Sample {
     radiance: vec3r,
-    dropped: real,
-    bound: real,
+    @if(bounces) dropped: real,
+    @if(bounces) bound: real,
     rays: u32,
     rays_by_kind: vec4u,
     primitive_hash: u32,
@@ -21,8 +21,8 @@ struct Sample {
 fn add(before: Texel, sample: Sample, index: u32) -> Texel {
     var texel = before;
     texel.radiance = texel.radiance + flush3(sample.radiance);
-    texel.dropped = texel.dropped + flush(sample.dropped);
-    texel.bound = texel.bound + flush(sample.bound);
+    @if(bounces) texel.dropped = texel.dropped + flush(sample.dropped);
+    @if(bounces) texel.bound = texel.bound + flush(sample.bound);
     texel.rays = texel.rays + sample.rays;
     if index == 0u {
         texel.primitive_hash = sample.primitive_hash;
@@ -38,8 +38,8 @@ fn settle(sums: Texel, samples: u32) -> Texel {
     texel.radiance.x = flush(real(texel.radiance.x / n));
     texel.radiance.y = flush(real(texel.radiance.y / n));
     texel.radiance.z = flush(real(texel.radiance.z / n));
-    texel.dropped = flush(real(texel.dropped / n));
-    texel.bound = flush(real(texel.bound / n));
+    @if(bounces) texel.dropped = flush(real(texel.dropped / n));
+    @if(bounces) texel.bound = flush(real(texel.bound / n));
     return texel;
 }
 

@@ -94,7 +94,7 @@ struct FilmTexel {
 }
 
 // An invocation at rest: which sample it goes on with, and the tree in work.
-struct Lane {
+@if(rests) struct Lane {
     sample_index: u32,
     @if(bounces) sample: Sample,
     @if(bounces) branch: Branch,
@@ -132,7 +132,7 @@ struct TreeNode {
 // The film, with the invocations of one dispatch.
 struct Film {
     head: FilmHead,
-    lanes: array<Lane, LANES>,
+    @if(rests) lanes: array<Lane, LANES>,
     @if(tree) tree: Tree,
     texels: array<FilmTexel>,
 }

@@ -3,7 +3,7 @@
 import package::real::{greatest, least, real, vec3r};
 import package::math::{dot3, max3, unit3};
 import package::bvh::{Hit, Ray};
-import package::bindings::{attributes, corners, triangles};
+import package::bindings::{attributes, corners, triangle_at};
 import package::constants::{EDGE_ROUNDOFFS, MOST_EDGE_WEIGHT, NONE, ROUNDOFF, SPAWN_ROUNDOFFS};
 
 // A point on a face, as the ray that found it sees it.
@@ -22,9 +22,10 @@ struct Surface {
 
 // Everything that shading needs at a hit.
 fn resolve(ray: Ray, hit: Hit) -> Surface {
-    let v0 = vec3r(triangles[hit.index].v0);
-    let v1 = vec3r(triangles[hit.index].v1);
-    let v2 = vec3r(triangles[hit.index].v2);
+    let tri = triangle_at(hit.index);
+    let v0 = vec3r(tri.v0);
+    let v1 = vec3r(tri.v1);
+    let v2 = vec3r(tri.v2);
     let face = attributes[hit.id];
     let b0 = 1.0 - hit.b1 - hit.b2;
     // The point; how far rounding may put it off the face, and another face of the same plane off the point.

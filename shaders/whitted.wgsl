@@ -12,7 +12,7 @@ import package::material::{is_transmissive, scatter};
 import package::math::max3;
 import package::media::{attenuation, cross_face, current_medium};
 import package::record::{record_end, record_surface};
-import package::records::Aov;
+import package::records::{Aov, Texel};
 import package::surface::{Surface, resolve, spawn_before, spawn_behind};
 import package::bindings::{film, frame};
 import package::constants::{
@@ -51,13 +51,15 @@ var<private> sample: Sample;
 var<private> current: Branch;
 @if(branches) var<private> stack_size: u32;
 // Which of the film's lanes is this invocation's: its stack lies there, so that a rest costs nothing.
-var<private> lane: u32;
+@if(rests) var<private> lane: u32;
 
 // Trace the tile's samples of a pixel of the whole picture onto texel `slot` of the film; false if it had to rest, to be
 // resumed by the next dispatch.
 fn trace_pixel(pixel: vec2u, slot: u32) -> bool {
-    var i = film.head.tile.first_sample;
-    var end = i + film.head.tile.sample_count;
+    @if(antialiasing) var i = film.head.tile.first_sample;
+    @else var i = 0u;
+    @if(antialiasing) var end = i + film.head.tile.sample_count;
+    @else let end = 1u;
     @if(adaptive) {
         let start = film.texels[slot].statistics.start;
         i += start;
@@ -65,14 +67,16 @@ fn trace_pixel(pixel: vec2u, slot: u32) -> bool {
     }
     // A tree of one ray rests before it begins.
     var resumes = false;
-    if film.head.tile.resume != 0u {
-        i = film.lanes[lane].sample_index;
-        @if(bounces) {
-            resumes = true;
-            sample = film.lanes[lane].sample;
-            current = film.lanes[lane].branch;
+    @if(rests) {
+        if film.head.tile.resume != 0u {
+            i = film.lanes[lane].sample_index;
+            @if(bounces) {
+                resumes = true;
+                sample = film.lanes[lane].sample;
+                current = film.lanes[lane].branch;
+            }
+            @if(branches) stack_size = film.lanes[lane].stack_size;
         }
-        @if(branches) stack_size = film.lanes[lane].stack_size;
     }
     var finished = true;
     for (; i < end; i++) {
@@ -87,7 +91,9 @@ fn trace_pixel(pixel: vec2u, slot: u32) -> bool {
         if !finished {
             break;
         }
-        film.texels[slot].texel = add(film.texels[slot].texel, sample, i);
+        var before: Texel;
+        @if(antialiasing) before = film.texels[slot].texel;
+        film.texels[slot].texel = add(before, sample, i);
         @if(adaptive) {
             film.texels[slot].statistics =
                 tally(film.texels[slot].statistics, flush3(sample.radiance), sample.first_body);
@@ -107,7 +113,7 @@ fn trace_pixel(pixel: vec2u, slot: u32) -> bool {
         @if(transmission) atomicAdd(&film.head.refraction, sample.rays_by_kind[RAY_REFRACTION]);
         @if(shadows) atomicAdd(&film.head.shadow, sample.rays_by_kind[RAY_SHADOW]);
     }
-    film.lanes[lane].sample_index = i;
+    @if(rests) film.lanes[lane].sample_index = i;
     @if(bounces) {
         film.lanes[lane].sample = sample;
         film.lanes[lane].branch = current;
@@ -119,8 +125,8 @@ fn trace_pixel(pixel: vec2u, slot: u32) -> bool {
 // Begin the tree of one primary ray in `sample`.
 fn start_tree(direction: vec3r) {
     sample.radiance = vec3r(0.0);
-    sample.dropped = 0.0;
-    sample.bound = 0.0;
+    @if(bounces) sample.dropped = 0.0;
+    @if(bounces) sample.bound = 0.0;
     sample.rays = 0u;
     sample.rays_by_kind = vec4u(0u);
     sample.primitive_hash = 0u;
@@ -149,10 +155,12 @@ fn push(branch: Branch) {
 // Trace what is left of the tree; false if the steps of this dispatch are used up before it is done.
 fn trace_tree() -> bool {
     loop {
-        if steps >= film.head.tile.step_budget {
-            return false;
+        @if(rests) {
+            if steps >= film.head.tile.step_budget {
+                return false;
+            }
+            steps += LOOP_STEPS;
         }
-        steps += LOOP_STEPS;
         // Refraction goes on, reflection waits: one entry a branching level.
         let next = follow(current);
         @if(bounces) {
@@ -177,7 +185,9 @@ fn trace_tree() -> bool {
 fn follow(branch: Branch) -> Next {
     var next: Next;
     var landing: Landing;
-    var cut = !worth_tracing(branch);
+    // A ray from the eye always is.
+    @if(bounces) var cut = !worth_tracing(branch);
+    @else let cut = false;
     if !cut {
         count_ray(branch.kind);
         landing = find_surface(branch);
@@ -253,12 +263,14 @@ fn see_background(branch: Branch, cut: bool) {
         sample.body_hash = mix_hash(sample.body_hash, branch.kind);
         return;
     }
-    let weight = max3(branch.weight);
-    sample.dropped = sample.dropped + weight;
-    // The true tree goes down to MAX_DEPTH, that is MAX_DEPTH + 1 - depth levels from here.
-    if branch.depth <= MAX_DEPTH {
-        let levels = MAX_DEPTH + 1u - branch.depth;
-        sample.bound = sample.bound + weight * real(frame.view.radiance_bound[levels >> 2][levels & 3]);
+    @if(bounces) {
+        let weight = max3(branch.weight);
+        sample.dropped = sample.dropped + weight;
+        // The true tree goes down to MAX_DEPTH, that is MAX_DEPTH + 1 - depth levels from here.
+        if branch.depth <= MAX_DEPTH {
+            let levels = MAX_DEPTH + 1u - branch.depth;
+            sample.bound = sample.bound + weight * real(frame.view.radiance_bound[levels >> 2][levels & 3]);
+        }
     }
 }
 

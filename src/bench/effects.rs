@@ -8,8 +8,14 @@ use serde::Serialize;
 use super::{BenchError, Ratio, Target, Tracer, interleave, median};
 use crate::film::{Frame, Renderer};
 use crate::flatten::{flatten, view};
+use crate::gpu::InvocationMemory;
 use crate::layout::{Effect, EffectChoice, EffectSet, FlatScene, Scan, Settings, View};
 use crate::scene::Scene;
+
+/// Fresh renderers that each side compiles in, for a median.
+const COMPILES: usize = 3;
+/// Width and height of the picture for which they do.
+const GLANCE: [u32; 2] = [8, 8];
 
 /// A scene, flattened, and the view of it that is traced at one sample a pixel.
 pub struct Stage {
@@ -17,6 +23,8 @@ pub struct Stage {
     pub name: String,
     scene: FlatScene,
     view: View,
+    /// The same of a few pixels.
+    glance: View,
     settings: Settings,
 }
 
@@ -44,11 +52,11 @@ pub struct EffectRow {
     pub trace_ms: Sides<f64>,
     /// How many times as long the general side takes.
     pub ratio: Ratio,
-    /// Assembly and pipeline creation of a fresh renderer, first dispatch included, in milliseconds; none on the CPU. Cold
-    /// only where the driver keeps nothing on disk.
+    /// Assembly and pipeline creation, first dispatch included: median time of fresh renderers, in milliseconds; none on
+    /// the CPU. Cold only where the driver keeps nothing on disk.
     pub compile_ms: Option<Sides<f64>>,
-    /// Bytes of an invocation's stack and sample at rest in device memory; none on the CPU.
-    pub invocation_bytes: Option<Sides<u64>>,
+    /// What an invocation takes; none on the CPU.
+    pub memory: Option<Sides<InvocationMemory>>,
 }
 
 impl Stage {
@@ -61,9 +69,9 @@ impl Stage {
         let flat = flatten(&scene)?.scene;
         let (depth, cutoff) = (scene.render.depth, scene.render.cutoff as f32);
         let settings = Settings { depth, cutoff, samples: 1, ..Settings::default() };
-        let view = view(&scene.camera, &flat, size, None, &settings);
+        let [view, glance] = [size, GLANCE].map(|size| view(&scene.camera, &flat, size, None, &settings));
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-        Ok(Self { name, scene: flat, view, settings })
+        Ok(Self { name, scene: flat, view, glance, settings })
     }
 
     /// The effects that it calls for.
@@ -96,17 +104,22 @@ pub fn compare_effects(
     general: EffectChoice,
     rounds: usize,
 ) -> Result<Option<EffectRow>, BenchError> {
-    let mut special = Side::open(stage, target, EffectChoice::Auto)?;
-    let mut general = Side::open(stage, target, general)?;
+    let choices = [EffectChoice::Auto, general];
+    let [mut special, mut general] = [
+        Side::open(stage, &stage.view, target, choices[0])?,
+        Side::open(stage, &stage.view, target, choices[1])?,
+    ];
     if !is_same(&special.first, &general.first) {
         return Ok(None);
     }
     let added = general.effects().minus(special.effects());
     let [special_times, general_times] =
         interleave(rounds, &mut [&mut || special.trace(), &mut || general.trace()])?;
-    let compile = |side: &Side<'_>| milliseconds(side.first.times.compile);
-    let compile_ms = Sides { special: compile(&special), general: compile(&general) };
-    let bytes = match (special.invocation_bytes()?, general.invocation_bytes()?) {
+    let compile_ms = match target {
+        Target::Cpu { .. } => None,
+        Target::Adapter(_) => Some(compile_times(stage, target, choices)?),
+    };
+    let memory = match (special.memory()?, general.memory()?) {
         (Some(special), Some(general)) => Some(Sides { special, general }),
         _ => None,
     };
@@ -120,39 +133,61 @@ pub fn compare_effects(
             general: milliseconds(median(&general_times)),
         },
         ratio: Ratio::of(&general_times, &special_times),
-        compile_ms: matches!(target, Target::Adapter(_)).then_some(compile_ms),
-        invocation_bytes: bytes,
+        compile_ms,
+        memory,
     }))
+}
+
+/// Median times in milliseconds until fresh renderers can trace, in turn. What a driver does once in a process is done.
+fn compile_times(
+    stage: &Stage,
+    target: &Target,
+    choices: [EffectChoice; 2],
+) -> Result<Sides<f64>, BenchError> {
+    let mut times = [const { Vec::new() }; 2];
+    for _ in 0..COMPILES {
+        for (choice, times) in choices.into_iter().zip(&mut times) {
+            times.push(Side::open(stage, &stage.glance, target, choice)?.first.times.compile);
+        }
+    }
+    let [special, general] = times.map(|times| milliseconds(median(&times)));
+    Ok(Sides { special, general })
 }
 
 /// A renderer of its own, so that its buffers stay, and its first picture.
 struct Side<'a> {
     stage: &'a Stage,
+    view: &'a View,
     settings: Settings,
     tracer: Tracer<'a>,
     first: Frame,
 }
 
 impl<'a> Side<'a> {
-    fn open(stage: &'a Stage, target: &Target, effects: EffectChoice) -> Result<Self, BenchError> {
+    fn open(
+        stage: &'a Stage,
+        view: &'a View,
+        target: &Target,
+        effects: EffectChoice,
+    ) -> Result<Self, BenchError> {
         let settings = Settings { effects, ..stage.settings };
         let mut tracer = target.open(&stage.scene)?;
-        let first = tracer.render(&stage.view, &settings, &())?;
-        Ok(Self { stage, settings, tracer, first })
+        let first = tracer.render(view, &settings, &())?;
+        Ok(Self { stage, view, settings, tracer, first })
     }
 
     fn trace(&mut self) -> Result<Duration, BenchError> {
-        Ok(self.tracer.render(&self.stage.view, &self.settings, &())?.times.trace)
+        Ok(self.tracer.render(self.view, &self.settings, &())?.times.trace)
     }
 
     fn effects(&self) -> EffectSet {
         Scan::of(&self.stage.scene).effects(&self.settings).plan(&self.settings).effects
     }
 
-    fn invocation_bytes(&mut self) -> Result<Option<u64>, BenchError> {
+    fn memory(&mut self) -> Result<Option<InvocationMemory>, BenchError> {
         match &mut self.tracer {
             Tracer::Cpu(_) => Ok(None),
-            Tracer::Gpu(renderer) => Ok(Some(renderer.invocation_bytes(&self.settings)?)),
+            Tracer::Gpu(renderer) => Ok(Some(renderer.invocation_memory(&self.settings)?)),
         }
     }
 }

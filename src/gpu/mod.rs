@@ -48,7 +48,7 @@ pub use error::GpuError;
 pub use float_controls::{FloatControls, Promises};
 pub use portions::Portions;
 pub use probe::Prober;
-pub use render::GpuRenderer;
+pub use render::{GpuRenderer, InvocationMemory};
 pub use sources::SOURCES;
 pub use spirv::write_spirv;
 pub use tree::GpuTree;

@@ -47,6 +47,14 @@ pub(super) struct Compiled {
     pub(super) texels_at: u64,
     /// Bytes before the recorded tree; 0 for a shader without.
     pub(super) tree_at: u64,
+    /// Bytes of an invocation's private variables.
+    pub(super) private: u64,
+}
+
+/// The bytes of the variables that each invocation has for itself.
+fn private_bytes(module: &naga::Module) -> u64 {
+    let private = module.global_variables.iter().filter(|(_, one)| one.space == naga::AddressSpace::Private);
+    private.map(|(_, one)| u64::from(module.types[one.ty].inner.size(module.to_ctx()))).sum()
 }
 
 /// The offset of a part of the film in the shader's own record of it, which depends on the variant; 0 for none.
@@ -102,7 +110,8 @@ pub(super) fn compile(
     }
     context.check()?;
     let at = |name| film_offset(&shader.module, name);
-    Ok(Compiled { pipeline, texels_at: at("texels"), tree_at: at("tree") })
+    let private = private_bytes(&shader.module);
+    Ok(Compiled { pipeline, texels_at: at("texels"), tree_at: at("tree"), private })
 }
 
 /// Hand the shader to the driver: decorated and as it is if strict, else through wgpu without run-time checks.

@@ -4,6 +4,8 @@ use std::collections::{HashMap, HashSet};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
+use serde::Serialize;
+
 use super::adaptive::Sifter;
 use super::blocks::Blocks;
 use super::buffers::SceneBuffers;
@@ -16,6 +18,15 @@ use super::{AdapterReport, GpuError, GpuOptions, Portions, SOURCES, Source, Vari
 use crate::film::{Frame, Progress, RayCounts, Renderer, SampleCounts, TraceTimes};
 use crate::layout::constants::BLOCK;
 use crate::layout::{FlatScene, Float, Plan, Scan, Settings, Tile, View};
+
+/// Bytes that an invocation takes beside its registers, of which drivers do not tell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct InvocationMemory {
+    /// Private variables: the sample and the ray in work, the traversal's stack.
+    pub private: u64,
+    /// In the film: the sample, the ray and the stack of waiting rays, where it may have to rest.
+    pub at_rest: u64,
+}
 
 /// A scene on an adapter.
 pub struct GpuRenderer {
@@ -106,14 +117,15 @@ impl GpuRenderer {
         Ok(())
     }
 
-    /// Bytes of device memory that an invocation under these settings rests in: its stack, its sample and its ray.
+    /// The memory that an invocation under these settings takes.
     ///
     /// # Errors
     /// As of [`Renderer::render`], where the shader is not compiled yet.
-    pub fn invocation_bytes(&mut self, settings: &Settings) -> Result<u64, GpuError> {
+    pub fn invocation_memory(&mut self, settings: &Settings) -> Result<InvocationMemory, GpuError> {
         let variant = self.variant(settings);
         let invocations = u64::from(variant.most_blocks() * BLOCK * BLOCK);
-        Ok(self.pipelines.compile(&variant)?.texels_at / invocations)
+        let compiled = self.pipelines.compile(&variant)?;
+        Ok(InvocationMemory { private: compiled.private, at_rest: compiled.texels_at / invocations })
     }
 
     /// Whether the pipeline that these settings need is compiled.

@@ -89,6 +89,8 @@ impl Variant {
             // A surface may send a ray on; and two of them.
             ("bounces", bounces),
             ("branches", bounces && self.stack_size > 0),
+            // An invocation may have a second ray of the itinerary to trace, and so rest before it.
+            ("rests", bounces || self.effects.has(Effect::Antialiasing)),
         ];
         let effects = Effect::ALL.map(|effect| (effect.name().replace('-', "_"), self.effects.has(effect)));
         own.map(|(name, on)| (name.to_owned(), on)).into_iter().chain(effects)

@@ -7,10 +7,23 @@ use super::covering::{all_closed, covering};
 use super::subject::{Subject, assert_same, files};
 use crate::lockstep::devices::{find, on_each};
 
-/// A scene of `scenes/`, small.
-fn small(path: &std::path::Path) -> Subject {
-    let name = path.file_name().unwrap().to_str().unwrap();
-    Subject::file(name, [32, 24])
+/// The deepest ray of all scenes where they are to share a general pipeline.
+const DEPTH: u32 = 8;
+
+/// The scenes of `scenes/`, small.
+fn scenes() -> impl Iterator<Item = Subject> {
+    files().into_iter().map(|path| Subject::file(path.file_name().unwrap().to_str().unwrap(), [32, 24]))
+}
+
+/// The same so that one general pipeline serves all: with one depth, and the deepest tree first.
+fn scenes_alike(float: Float) -> Vec<Subject> {
+    let alike = scenes().map(|subject| {
+        let settings = Settings { depth: DEPTH, float, ..subject.settings };
+        subject.under(settings)
+    });
+    let mut alike: Vec<_> = alike.collect();
+    alike.sort_by_key(|subject| std::cmp::Reverse(subject.flat.bvh_depth));
+    alike
 }
 
 /// Sets that hold what a scene calls for.
@@ -20,8 +33,7 @@ fn supersets(subject: &Subject, choose: fn(EffectSet) -> Vec<EffectSet>) -> Vec<
 
 #[test]
 fn every_scene_has_the_same_bits_with_any_two_effects_more_on_the_cpu() {
-    for path in files() {
-        let subject = small(&path);
+    for subject in scenes() {
         let general = subject.on_cpu(EffectChoice::All);
         for choice in supersets(&subject, covering).into_iter().chain([EffectChoice::Auto]) {
             assert_same(&subject.on_cpu(choice), &general, &format!("{}, {choice:?}", subject.name));
@@ -31,18 +43,19 @@ fn every_scene_has_the_same_bits_with_any_two_effects_more_on_the_cpu() {
 
 #[test]
 fn every_scene_has_the_bits_of_the_cpu_by_its_own_and_by_the_general_shader() {
-    for path in files() {
-        let subject = small(&path);
-        let cpu = subject.on_cpu(EffectChoice::Auto);
-        on_each(|options| {
-            let mut renderer = subject.renderer(options);
+    let subjects = scenes_alike(Float::Strict);
+    let pictures: Vec<_> = subjects.iter().map(|subject| subject.on_cpu(EffectChoice::Auto)).collect();
+    on_each(|options| {
+        let mut renderer = subjects[0].renderer(options);
+        for (subject, cpu) in subjects.iter().zip(&pictures) {
+            renderer.show(&subject.flat).unwrap();
             for choice in [EffectChoice::Auto, EffectChoice::All] {
                 let gpu = subject.on_gpu(&mut renderer, choice);
                 assert_eq!(gpu.float, Float::Strict);
-                assert_same(&gpu, &cpu, &format!("{} on {options:?}, {choice:?}", subject.name));
+                assert_same(&gpu, cpu, &format!("{} on {options:?}, {choice:?}", subject.name));
             }
-        });
-    }
+        }
+    });
 }
 
 #[test]
@@ -76,10 +89,10 @@ fn compare_on_adapters(subject: &Subject, choose: fn(EffectSet) -> Vec<EffectSet
 #[test]
 fn fast_shaders_take_the_same_paths_with_and_without_the_effects_that_are_not_called_for() {
     find("llvmpipe").iter().for_each(|options| {
-        for path in files() {
-            let mut subject = small(&path);
-            subject.settings = Settings { float: Float::Fast, ..subject.settings };
-            let mut renderer = subject.renderer(options);
+        let subjects = scenes_alike(Float::Fast);
+        let mut renderer = subjects[0].renderer(options);
+        for subject in subjects {
+            renderer.show(&subject.flat).unwrap();
             let special = subject.on_gpu(&mut renderer, EffectChoice::Auto);
             let general = subject.on_gpu(&mut renderer, EffectChoice::All);
             assert_eq!(special.float, Float::Fast);

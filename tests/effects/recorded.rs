@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 use snellius::kernel::whitted::trace_pixel;
 use snellius::kernel::{Simulation, World};
-use snellius::layout::{Aov, Effect, EffectChoice, EffectSet, Intersector, Texel};
+use snellius::layout::{Aov, Effect, EffectChoice, EffectSet, Effects, Intersector, Settings, Texel};
 
 use super::random;
 use super::subject::{Subject, assert_same};
@@ -12,35 +12,36 @@ use super::subject::{Subject, assert_same};
 /// Random scenes that are tried.
 const SCENES: u32 = 300;
 
-/// Simulates everything, and notes what is asked for: the kernel asks when an effect is about to show.
+/// Simulates what a general run does under its settings, and notes what is asked for: the kernel asks when an effect is
+/// about to show.
 #[derive(Clone, Copy)]
-struct Recorder<'a>(&'a AtomicU32);
+struct Recorder<'a> {
+    general: EffectSet,
+    noted: &'a AtomicU32,
+}
 
 impl Simulation for Recorder<'_> {
     fn simulates(self, effect: Effect) -> bool {
-        self.0.fetch_or(1 << effect as u32, Ordering::Relaxed);
-        true
+        let simulated = self.general.has(effect);
+        self.noted.fetch_or(u32::from(simulated) << effect as u32, Ordering::Relaxed);
+        simulated
     }
 }
 
 /// The effects that a picture of the subject really uses.
 fn touched(subject: &Subject) -> EffectSet {
+    let all = Settings { effects: EffectChoice::All, ..subject.settings };
+    let general = Effects::of(&subject.flat, &all).plan(&all).effects;
     let noted = AtomicU32::new(0);
     let (scene, view) = (&subject.flat, &subject.view);
-    let world = World { scene, view, intersector: Intersector::Watertight, effects: Recorder(&noted) };
+    let effects = Recorder { general, noted: &noted };
+    let world = World { scene, view, intersector: Intersector::Watertight, effects };
     let mut stack = Vec::new();
     for (x, y) in (0..view.height).flat_map(|y| (0..view.width).map(move |x| (x, y))) {
         let (mut texel, mut aov) = (Texel::default(), Aov::default());
         trace_pixel::<f32>(&world, &mut stack, [x, y], 0..view.samples, &mut texel, &mut aov, None);
     }
-    let noted = noted.into_inner();
-    // The settings decide about auxiliary pictures and refinement.
-    Effect::ALL
-        .into_iter()
-        .filter(|&effect| {
-            noted >> effect as u32 & 1 == 1 && !matches!(effect, Effect::Aovs | Effect::Adaptive)
-        })
-        .collect()
+    EffectSet::from_bits(noted.into_inner())
 }
 
 #[test]
@@ -76,5 +77,8 @@ fn scenes_touch_all_that_they_call_for() {
     for name in ["opaque.toml", "mirrors.toml", "prism.toml", "whitted.toml", "goblet.toml"] {
         let subject = Subject::file(name, [40, 30]);
         assert_eq!(touched(&subject), subject.called_for(), "{name}");
+        let settings = Settings { samples: 4, adaptive: Some(0.02), aovs: true, ..subject.settings };
+        let asked = subject.called_for().with(Effect::Adaptive).with(Effect::Aovs);
+        assert_eq!(touched(&subject.under(settings)), asked, "{name}");
     }
 }

@@ -1,26 +1,35 @@
 //! Scenes, to be traced with one choice of effects and with another.
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 use snellius::cpu::CpuRenderer;
 use snellius::film::{Frame, Renderer};
 use snellius::flatten;
 use snellius::gpu::{GpuOptions, GpuRenderer};
-use snellius::layout::{EffectChoice, EffectSet, Effects, FlatScene, Settings, View};
+use snellius::layout::{Effect, EffectChoice, EffectSet, Effects, FlatScene, Settings, View};
 use snellius::scene::Scene;
 
 /// A scene, and how it is seen.
 pub(super) struct Subject {
     pub(super) name: String,
-    pub(super) flat: FlatScene,
+    scene: Arc<Scene>,
+    pub(super) flat: Arc<FlatScene>,
     pub(super) view: View,
     pub(super) settings: Settings,
 }
 
+/// The scenes of `scenes/` that were read: each once for all tests.
+static READ: LazyLock<Mutex<HashMap<String, (Arc<Scene>, Arc<FlatScene>)>>> = LazyLock::new(Mutex::default);
+
 impl Subject {
     /// A scene of `scenes/`, at two samples a pixel.
     pub(super) fn file(name: &str, size: [u32; 2]) -> Self {
-        Self::load(&folder().join(name), Some(size), 2)
+        let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
+        let (scene, flat) = read.entry(name.to_owned()).or_insert_with(|| load(&folder().join(name))).clone();
+        drop(read);
+        Self::new(name, scene, flat, size, 2)
     }
 
     /// A scene that is written down here.
@@ -28,16 +37,23 @@ impl Subject {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("scene.toml");
         std::fs::write(&path, text).unwrap();
-        Self::load(&path, None, 1)
+        let (scene, flat) = load(&path);
+        let size = scene.render.size;
+        Self::new("the scene", scene, flat, size, 1)
     }
 
-    fn load(path: &Path, size: Option<[u32; 2]>, samples: u32) -> Self {
-        let scene = Scene::load(path).unwrap_or_else(|error| panic!("{error}"));
-        let flat = flatten::flatten(&scene).unwrap_or_else(|error| panic!("{error}")).scene;
+    fn new(name: &str, scene: Arc<Scene>, flat: Arc<FlatScene>, size: [u32; 2], samples: u32) -> Self {
         let (depth, cutoff) = (scene.render.depth, scene.render.cutoff as f32);
         let settings = Settings { depth, cutoff, samples, ..Settings::default() };
-        let view = flatten::view(&scene.camera, &flat, size.unwrap_or(scene.render.size), None, &settings);
-        Self { name: path.display().to_string(), flat, view, settings }
+        let view = flatten::view(&scene.camera, &flat, size, None, &settings);
+        Self { name: name.to_owned(), scene, flat, view, settings }
+    }
+
+    /// The same under other settings.
+    pub(super) fn under(self, settings: Settings) -> Self {
+        let size = [self.view.width, self.view.height];
+        let view = flatten::view(&self.scene.camera, &self.flat, size, None, &settings);
+        Self { view, settings, ..self }
     }
 
     /// What is called for.
@@ -46,7 +62,7 @@ impl Subject {
     }
 
     pub(super) fn on_cpu(&self, effects: EffectChoice) -> Frame {
-        let settings = Settings { effects, ..self.settings };
+        let settings = self.choosing(effects);
         CpuRenderer::new(&self.flat, 1).unwrap().render(&self.view, &settings, &()).unwrap()
     }
 
@@ -55,8 +71,20 @@ impl Subject {
     }
 
     pub(super) fn on_gpu(&self, renderer: &mut GpuRenderer, effects: EffectChoice) -> Frame {
-        renderer.render(&self.view, &Settings { effects, ..self.settings }, &()).unwrap()
+        renderer.render(&self.view, &self.choosing(effects), &()).unwrap()
     }
+
+    /// The settings with a choice of effects: auxiliary pictures are made only where they are asked for.
+    fn choosing(&self, effects: EffectChoice) -> Settings {
+        let chosen = matches!(effects, EffectChoice::Only(set) if set.has(Effect::Aovs));
+        Settings { effects, aovs: self.settings.aovs || chosen, ..self.settings }
+    }
+}
+
+fn load(path: &Path) -> (Arc<Scene>, Arc<FlatScene>) {
+    let scene = Scene::load(path).unwrap_or_else(|error| panic!("{error}"));
+    let flat = flatten::flatten(&scene).unwrap_or_else(|error| panic!("{error}")).scene;
+    (Arc::new(scene), Arc::new(flat))
 }
 
 /// The scenes that come with the program.

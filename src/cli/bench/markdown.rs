@@ -2,12 +2,13 @@
 
 use super::report::Report;
 use crate::bench::{EffectRow, Sides};
+use crate::gpu::InvocationMemory;
 
 /// Two tables and what they were measured on.
 pub(super) fn page(report: &Report) -> String {
     let mut text = String::new();
-    text += "| scene | device | rays | own effects, ms | all effects, ms | ratio (95 %) | compile, ms | bytes at rest |\n";
-    text += "|---|---|--:|--:|--:|--:|--:|--:|\n";
+    text += "| scene | device | rays | own effects, ms | all effects, ms | ratio (95 %) | compile, ms | private bytes | bytes at rest |\n";
+    text += "|---|---|--:|--:|--:|--:|--:|--:|--:|\n";
     for row in &report.scenes {
         text += &format!(
             "| `{}` | {} | {} | {} | {} |\n",
@@ -19,8 +20,8 @@ pub(super) fn page(report: &Report) -> String {
         );
     }
     if !report.alone.is_empty() {
-        text += "\n| added alone | to | device | without, ms | with, ms | ratio (95 %) | compile, ms | bytes at rest |\n";
-        text += "|---|---|---|--:|--:|--:|--:|--:|\n";
+        text += "\n| added alone | to | device | without, ms | with, ms | ratio (95 %) | compile, ms | private bytes | bytes at rest |\n";
+        text += "|---|---|---|--:|--:|--:|--:|--:|--:|\n";
         for row in &report.alone {
             text += &format!(
                 "| {} | `{}` | {} | {} | {} |\n",
@@ -43,8 +44,13 @@ fn times(row: &EffectRow) -> String {
 /// Compile times and memory, which the CPU has not.
 fn device_figures(row: &EffectRow) -> String {
     let compile = row.compile_ms.map(|Sides { special, general }| format!("{special:.0}, {general:.0}"));
-    let bytes = row.invocation_bytes.map(|Sides { special, general }| format!("{special}, {general}"));
-    format!("{} | {}", compile.unwrap_or_default(), bytes.unwrap_or_default())
+    let bytes = |of: fn(InvocationMemory) -> u64| {
+        row.memory
+            .map(|Sides { special, general }| format!("{}, {}", of(special), of(general)))
+            .unwrap_or_default()
+    };
+    let (private, at_rest) = (bytes(|memory| memory.private), bytes(|memory| memory.at_rest));
+    format!("{} | {private} | {at_rest}", compile.unwrap_or_default())
 }
 
 fn caption(report: &Report) -> String {
@@ -54,7 +60,7 @@ fn caption(report: &Report) -> String {
     let cold = if machine.cold { "nothing kept by Mesa" } else { "shaders kept by the driver count" };
     format!(
         "\n{width}×{height}, one sample a pixel; trace times: medians of {} runs of each side in turn; every row's two \
-         pictures are the same bits. Compile and bytes: own effects, then all; {cold}. Version {}; {}, {} threads{adapters}.\n",
+         pictures are the same bits. Compile (medians of three fresh renderers) and bytes: own effects, then all; {cold}. Version {}; {}, {} threads{adapters}.\n",
         report.rounds, machine.version, machine.cpu, machine.threads
     )
 }

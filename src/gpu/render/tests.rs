@@ -139,8 +139,9 @@ fn a_device_that_goes_is_reported() {
 #[test]
 fn double_precision_goes_through_single_in_powers_only() {
     let Some(options) = find("llvmpipe") else { return };
-    // A unit in the last place of the film, and highlights: see the module's documentation.
-    for (file, most) in [("prism.toml", 1.5e-7), ("opaque.toml", 1.5e-6)] {
+    // A unit in the last place of the film, and highlights: see the module's documentation. Where f32 is off by more than
+    // its own highlights it is far worse (470 times was seen), where those are all there is to see a little (5 times).
+    for (file, most, worse) in [("prism.toml", 1.5e-7, 100.0), ("opaque.toml", 1e-6, 4.0)] {
         let single = Subject::new(file, [96, 72], 1);
         let cpu_single = single.on_cpu();
         let double = single.with(Precision::F64);
@@ -148,7 +149,7 @@ fn double_precision_goes_through_single_in_powers_only() {
         let (difference, paths) = compare(&cpu, &gpu);
         assert!(difference <= most && paths == 0, "{file}: {difference:e}, {paths} other paths");
         let (difference, _) = compare(&cpu, &cpu_single);
-        assert!(difference > 2.0 * most, "{file}: f32 is as good: {difference:e}");
+        assert!(difference > worse * most, "{file}: f32 is as good: {difference:e}");
     }
 }
 
