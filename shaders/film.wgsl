@@ -44,12 +44,12 @@ fn settle(sums: Texel, samples: u32) -> Texel {
 }
 
 // To f32, with subnormals as 0: devices differ on them.
+//
+// A select, for this is called from dozens of places: an early return becomes a loop of one round wherever it is inlined,
+// and SwiftShader took minutes to compile those of `record`.
 fn flush(x: real) -> f32 {
     let f = f32(x);
-    if abs(f) < LEAST_NORMAL {
-        return 0.0;
-    }
-    return f;
+    return select(f, 0.0, abs(f) < LEAST_NORMAL);
 }
 
 // A vector through `flush`.

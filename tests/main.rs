@@ -9,4 +9,5 @@ mod properties;
 mod scenes;
 mod selftest;
 mod study;
+mod theory;
 mod trace;

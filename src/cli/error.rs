@@ -45,6 +45,14 @@ pub(super) enum CliError {
         /// What to do.
         hint: Option<String>,
     },
+    /// A goal that cannot be met.
+    #[error("{message}")]
+    Unmet {
+        /// Which one.
+        message: String,
+        /// What could be had.
+        hint: String,
+    },
     #[error(transparent)]
     Scene(#[from] SceneError),
     #[error(transparent)]
@@ -103,6 +111,11 @@ impl CliError {
         Self::Usage { message: message.into(), hint: None }
     }
 
+    /// A goal that cannot be met.
+    pub(super) fn unmet(message: impl Into<String>, hint: impl Into<String>) -> Self {
+        Self::Unmet { message: message.into(), hint: hint.into() }
+    }
+
     /// The same with advice.
     pub(super) fn hint(self, hint: impl Into<String>) -> Self {
         match self {
@@ -111,13 +124,14 @@ impl CliError {
         }
     }
 
-    /// 2 for usage, scenes and files; 3 and 4 as devices say.
+    /// 1 for a goal that is not met; 2 for usage, scenes and files; 3 and 4 as devices say.
     pub(super) fn exit_code(&self) -> u8 {
         if self.is_closed_pipe() {
             return Outcome::Done.exit_code();
         }
         match self {
             Self::Gpu(error) => error.exit_code(),
+            Self::Unmet { .. } => Outcome::Failed.exit_code(),
             Self::Usage { .. }
             | Self::Cpu(_)
             | Self::Scene(_)
@@ -141,7 +155,11 @@ impl CliError {
             let faults: Vec<_> = error.diagnostics().iter().map(|fault| fault.render(color)).collect();
             return faults.join("\n\n");
         }
-        let hint = if let Self::Usage { hint, .. } = self { hint.clone() } else { None };
+        let hint = match self {
+            Self::Usage { hint, .. } => hint.clone(),
+            Self::Unmet { hint, .. } => Some(hint.clone()),
+            _ => None,
+        };
         Diagnostic { hint, ..Diagnostic::error(self.to_string()) }.render(color)
     }
 }

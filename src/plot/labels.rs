@@ -39,9 +39,18 @@ impl Taken {
     }
 
     /// A place for a name near a point, which is then taken: right of it, left, above, below, then further off.
-    pub(super) fn place(&mut self, [x, y]: [f64; 2], text: &str, size: f64) -> Option<Place> {
+    pub(super) fn place(&mut self, point: [f64; 2], text: &str, size: f64) -> Option<Place> {
+        self.place_at(point, text, size, &[1.0, 2.4, 4.0, 6.0])
+    }
+
+    /// The same, but only beside the point.
+    pub(super) fn place_beside(&mut self, point: [f64; 2], text: &str, size: f64) -> Option<Place> {
+        self.place_at(point, text, size, &[1.0])
+    }
+
+    fn place_at(&mut self, [x, y]: [f64; 2], text: &str, size: f64, distances: &[f64]) -> Option<Place> {
         let width = width_of(text, size);
-        let candidates = [1.0, 2.4, 4.0, 6.0].into_iter().flat_map(|far| {
+        let candidates = distances.iter().flat_map(|&far| {
             let (dx, dy) = (8.0 * far, size * far);
             [
                 ([x + dx, y + size * 0.35], Anchor::Start),

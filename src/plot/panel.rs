@@ -213,15 +213,13 @@ impl Drawing<'_> {
         }
     }
 
-    /// Names of series at their ends, then names of points, as far as there is room.
+    /// Names of series beside the last of their points that has room, then names of points, as far as there is room.
     fn names(&self, canvas: &mut Canvas, taken: &mut Taken) {
-        for series in &self.panel.series {
-            let ends = [series.points.last(), series.points.first()];
-            if series.name.is_empty() {
-                continue;
-            }
-            let mut free = |end: &Point| taken.place(self.place(end), &series.name, SMALL);
-            if let Some(Place { at, anchor, .. }) = ends.into_iter().flatten().find_map(&mut free) {
+        for series in self.panel.series.iter().filter(|series| !series.name.is_empty()) {
+            let places = || series.points.iter().rev().map(|point| self.place(point));
+            let beside = places().find_map(|at| taken.place_beside(at, &series.name, SMALL));
+            let found = beside.or_else(|| places().find_map(|at| taken.place(at, &series.name, SMALL)));
+            if let Some(Place { at, anchor, .. }) = found {
                 let style = Type { size: SMALL, color: series.color, anchor, bold: false };
                 canvas.text(at, &series.name, style);
             }

@@ -60,9 +60,15 @@ impl Certificate {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
+    use super::super::lab::Subject;
     use super::super::metrics::tests::seen;
     use super::*;
+    use crate::cpu::CpuRenderer;
+    use crate::film::Renderer;
+    use crate::flatten;
+    use crate::layout::Settings;
 
     #[test]
     fn a_bound_that_is_kept_is_not_broken_and_one_too_small_is() {
@@ -90,5 +96,22 @@ mod tests {
     #[test]
     fn what_is_not_a_number_breaks_every_bound() {
         assert_eq!(Certificate::of(&seen(&[f32::NAN]), &seen(&[0.0])).broken, 1);
+    }
+
+    #[test]
+    fn bounds_of_a_picture_that_are_too_small_are_found_out() {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/whitted.toml");
+        let subject = Subject::load(&path, 0).unwrap();
+        let flat = &subject.flat.scene;
+        let mut renderer = CpuRenderer::new(flat, 0).unwrap();
+        let mut picture = |settings: Settings| {
+            let view = flatten::view(&subject.scene.camera, flat, [24, 18], None, &settings);
+            Seen::of(&renderer.render(&view, &settings, &()).unwrap())
+        };
+        let tree = picture(Settings { depth: 64, cutoff: 1e-6, ..Settings::default() });
+        let mut cut = picture(Settings { depth: 2, ..Settings::default() });
+        assert_eq!(Certificate::of(&cut, &tree).broken, 0);
+        cut.bounds.iter_mut().for_each(|bound| *bound *= 0.01);
+        assert!(Certificate::of(&cut, &tree).broken > 0);
     }
 }

@@ -37,7 +37,16 @@ pub(super) fn name_of(row: &RowRecord) -> String {
         Some(Knob::Depth) => format!("depth {}", row.label),
         Some(Knob::Cutoff) => format!("cut-off {}", row.label),
         Some(Knob::Tessellation) => format!("solids {}", row.label),
-        Some(Knob::Precision | Knob::Intersector | Knob::Effects | Knob::Device) => row.label.clone(),
+        Some(Knob::Device) => device_name(&row.label),
+        Some(Knob::Precision | Knob::Intersector | Knob::Effects) => row.label.clone(),
+    }
+}
+
+/// A device without what its driver says of itself in brackets: "llvmpipe, strict".
+fn device_name(label: &str) -> String {
+    match (label.split_once(" ("), label.rsplit_once("), ")) {
+        (Some((name, _)), Some((_, float))) => format!("{name}, {float}"),
+        _ => label.to_owned(),
     }
 }
 
@@ -234,8 +243,19 @@ fn sampling(report: &Report) -> Option<Figure> {
         title: "Samples per pixel".to_owned(),
         caption:
             "Dashed: how the error of independent samples would fall. The first samples of the reference are \
-                  those of the rows, so that with half as many the error is about its uncertainty."
+                  those of the rows, so that errors of many samples are understated."
                 .to_owned(),
         panels: vec![error_panel, time_panel],
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_device_is_named_in_few_words() {
+        assert_eq!(device_name("llvmpipe (LLVM 15.0.6, 256 bits) (software), strict"), "llvmpipe, strict");
+        assert_eq!(device_name("CPU, 1 thread"), "CPU, 1 thread");
+    }
 }

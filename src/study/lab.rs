@@ -7,8 +7,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use super::plan::{Setup, Target};
-use super::run::Watch;
-use super::{Baseline, StudyError};
+use super::{Baseline, StudyError, Watch};
 use crate::cpu::CpuRenderer;
 use crate::film::{Frame, Progress, Renderer};
 use crate::flatten::{Flattened, flatten, view};

@@ -80,6 +80,14 @@ impl Errors {
     }
 }
 
+impl Errors {
+    /// All distances times a factor.
+    pub(super) fn scaled(self, factor: f64) -> Self {
+        let Self { rmse, p999, max, flip, .. } = self;
+        Self { rmse: rmse * factor, p999: p999 * factor, max: max * factor, flip: flip * factor, ..self }
+    }
+}
+
 /// The absolute difference that a share of all channels keeps: the value of the nearest rank.
 fn quantile(a: &[[f32; 3]], b: &[[f32; 3]], share: f64) -> f64 {
     let mut apart: Vec<f32> =

@@ -7,10 +7,13 @@
 //!
 //! Errors are those of linear RGB clamped to [0, 1]: what a display without tone mapping can show.
 
+mod begin;
 mod budget;
 mod certificate;
+mod config;
 mod error;
 mod figures;
+mod first_runs;
 mod knob;
 mod lab;
 mod metrics;
@@ -21,10 +24,12 @@ mod reference;
 mod report;
 mod run;
 mod store;
+mod timed_runs;
 mod timing;
 
-pub use budget::{Choice, Goal, choose};
+pub use budget::{Choice, Goal, MOST_SAMPLES, Request, choose};
 pub use certificate::Certificate;
+pub use config::{Config, Watch};
 pub use error::StudyError;
 pub use knob::{Knob, Truth};
 pub use metrics::Errors;
@@ -32,5 +37,5 @@ pub use output::write_outputs;
 pub use plan::{Baseline, Setup, Target};
 pub use reference::Uncertainty;
 pub use report::{LeftOut, Rays, ReferenceRecord, Report, RowRecord};
-pub use run::{Config, Watch, run};
+pub use run::run;
 pub use timing::Timing;

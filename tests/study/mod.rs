@@ -9,9 +9,11 @@ use std::time::Duration;
 use snellius::cpu::CpuRenderer;
 use snellius::film::{Difference, Metric, Picture, Renderer};
 use snellius::flatten;
-use snellius::layout::{Precision, Settings};
+use snellius::layout::{FlatScene, Precision, Settings};
 use snellius::scene::Scene;
-use snellius::study::{Config, Goal, Knob, Report, StudyError, Truth, Watch, choose, run, write_outputs};
+use snellius::study::{
+    Config, Goal, Knob, MOST_SAMPLES, Report, Request, StudyError, Truth, Watch, choose, run, write_outputs,
+};
 
 /// Waits in silence; stops a study after so many stages.
 struct Patience {
@@ -126,26 +128,44 @@ fn a_study_that_was_stopped_goes_on_where_it_was() {
     assert!(report.complete && report.rows.len() > kept.rows.len());
 }
 
+/// A scene of scenes/, flattened.
+fn flattened(name: &str) -> (Scene, FlatScene) {
+    let loaded = Scene::load(&scene(name)).unwrap();
+    let flat = flatten::flatten(&loaded).unwrap().scene;
+    (loaded, flat)
+}
+
+const BOTH: &[Precision] = &[Precision::F32, Precision::F64];
+
+fn request<'a>((scene, flat): &'a (Scene, FlatScene), size: [u32; 2], keeps_samples: bool) -> Request<'a> {
+    let base = Settings::default();
+    Request { scene: flat, camera: &scene.camera, size, base, keeps_samples, precisions: BOTH }
+}
+
+/// Linear RGB clamped to [0, 1], and what tracing took.
+fn picture((scene, flat): &(Scene, FlatScene), size: [u32; 2], settings: &Settings) -> (Picture, Duration) {
+    let view = flatten::view(&scene.camera, flat, size, None, settings);
+    let frame = CpuRenderer::new(flat, 0).unwrap().render(&view, settings, &()).unwrap();
+    let clamped: Vec<_> = frame.radiance().iter().map(|p| p.map(|v| v.clamp(0.0, 1.0))).collect();
+    (Picture::from_rgb(size[0], size[1], &clamped), frame.times.trace)
+}
+
+/// For goals that ask for no time.
+fn no_clock(_: [u32; 2], _: &Settings) -> Result<Duration, StudyError> {
+    Ok(Duration::ZERO)
+}
+
 #[test]
 fn an_error_budget_is_kept_and_is_not_wasted() {
+    let size = [40, 30];
     for name in ["whitted.toml", "prism.toml", "mirrors.toml"] {
-        let loaded = Scene::load(&scene(name)).unwrap();
-        let flat = flatten::flatten(&loaded).unwrap().scene;
-        let size = [40, 30];
+        let subject = flattened(name);
         let goal = Goal::Error { limit: 0.002, metric: Metric::Rmse };
-        let both = [Precision::F32, Precision::F64];
-        let mut clock = |_: [u32; 2], _: &Settings| Ok::<_, StudyError>(Duration::ZERO);
-        let choice =
-            choose((&flat, &loaded.camera), size, Settings::default(), &both, goal, &mut clock).unwrap();
-        let picture = |settings: Settings| {
-            let view = flatten::view(&loaded.camera, &flat, size, None, &settings);
-            let frame = CpuRenderer::new(&flat, 0).unwrap().render(&view, &settings, &()).unwrap();
-            let clamped: Vec<_> = frame.radiance().iter().map(|p| p.map(|v| v.clamp(0.0, 1.0))).collect();
-            Picture::from_rgb(size[0], size[1], &clamped)
-        };
+        let choice = choose(&request(&subject, size, true), goal, &mut no_clock).unwrap();
         let truth = Settings { depth: 64, cutoff: 1e-6, precision: Precision::F64, ..Settings::default() };
-        let truth = picture(truth);
-        let rmse = |settings| Difference::between(&picture(settings), &truth).unwrap().rmse;
+        let (truth, _) = picture(&subject, size, &truth);
+        let rmse =
+            |settings| Difference::between(&picture(&subject, size, &settings).0, &truth).unwrap().rmse;
         assert!(choice.meets && rmse(choice.settings) <= 0.002, "{name}: {choice:?}");
         // Twice the cut-off and one level less do not keep it, or are no cheaper.
         let Settings { cutoff, depth, .. } = choice.settings;
@@ -155,19 +175,59 @@ fn an_error_budget_is_kept_and_is_not_wasted() {
 }
 
 #[test]
+fn a_budget_counts_the_samples_that_are_missing() {
+    let (subject, size, limit) = (flattened("opaque.toml"), [40, 30], 0.01);
+    let goal = Goal::Error { limit, metric: Metric::Rmse };
+    let choice = choose(&request(&subject, size, false), goal, &mut no_clock).unwrap();
+    let truth = Settings { samples: 1024, precision: Precision::F64, ..choice.settings };
+    let (truth, _) = picture(&subject, size, &Settings { adaptive: None, ..truth });
+    let rmse = |settings| Difference::between(&picture(&subject, size, &settings).0, &truth).unwrap().rmse;
+    assert!(choice.meets && choice.settings.samples > 4, "{choice:?}");
+    assert!(rmse(choice.settings) <= limit, "{choice:?}");
+    // A third of the samples would not do.
+    let fewer = Settings { samples: choice.settings.samples / 3, adaptive: None, ..choice.settings };
+    assert!(rmse(fewer) > 0.8 * limit, "{choice:?}");
+}
+
+#[test]
+fn a_budget_that_no_samples_keep_says_so_before_it_tries_them() {
+    let subject = flattened("opaque.toml");
+    let goal = Goal::Error { limit: 1e-7, metric: Metric::Rmse };
+    let choice = choose(&request(&subject, [40, 30], false), goal, &mut no_clock).unwrap();
+    assert!(!choice.meets && choice.settings.samples == MOST_SAMPLES && choice.figure[1] > 1e-7);
+    assert!(choice.tried < 40, "{choice:?}");
+}
+
+#[test]
+fn a_picture_takes_about_the_time_that_it_was_given() {
+    let (subject, size) = (flattened("whitted.toml"), [64, 48]);
+    let mut clock = |size: [u32; 2], settings: &Settings| {
+        picture(&subject, size, settings);
+        Ok::<_, StudyError>(picture(&subject, size, settings).1)
+    };
+    let given = |ms| Goal::Time(Duration::from_millis(ms));
+    let request = request(&subject, size, false);
+    let [short, long] = [60, 600].map(|ms| choose(&request, given(ms), &mut clock).unwrap());
+    assert!(short.meets && long.meets && long.figure[1] < short.figure[1], "{short:?} {long:?}");
+    // Other work on the machine may slow one run down, hardly all of them.
+    let took = (0..5).map(|_| picture(&subject, size, &long.settings).1).min().unwrap();
+    assert!((0.1..=1.2).contains(&(took.as_secs_f64() / 0.6)), "{took:?} {long:?}");
+}
+
+#[test]
 fn the_most_accurate_settings_are_those_that_the_clock_allows() {
-    let loaded = Scene::load(&scene("prism.toml")).unwrap();
-    let flat = flatten::flatten(&loaded).unwrap().scene;
+    let subject = flattened("prism.toml");
     // A device that takes longer the less it cuts, and twice as long in f64.
     let mut clock = |_: [u32; 2], settings: &Settings| {
         let precision = if settings.precision == Precision::F64 { 2.0 } else { 1.0 };
         Ok::<_, StudyError>(Duration::from_secs_f64(precision * f64::from(-settings.cutoff.log2()) / 1e3))
     };
     let goal = Goal::Time(Duration::from_millis(10));
-    let both = [Precision::F32, Precision::F64];
-    let base = Settings::default();
-    let choice = choose((&flat, &loaded.camera), [40, 30], base, &both, goal, &mut clock).unwrap();
-    // Nine of ten milliseconds: 2^-9 in f32, or 2^-4 in f64.
-    assert!(choice.meets && choice.settings.depth == 64);
-    assert_eq!((choice.settings.cutoff, choice.settings.precision), (2.0_f32.powi(-9), Precision::F32));
+    let choice = choose(&request(&subject, [40, 30], true), goal, &mut clock).unwrap();
+    let Settings { cutoff, precision, .. } = choice.settings;
+    // Nine of ten milliseconds: at the finest 2^-9 in f32, or 2^-4 in f64.
+    assert!(choice.meets && precision == Precision::F32, "{choice:?}");
+    assert!((2.0_f32.powi(-9)..=2.0_f32.powi(-7)).contains(&cutoff), "{choice:?}");
+    let nothing = choose(&request(&subject, [40, 30], true), Goal::Time(Duration::ZERO), &mut clock).unwrap();
+    assert!(!nothing.meets);
 }

@@ -12,7 +12,7 @@ use snellius::layout::{FlatScene, Precision, Settings, View};
 use snellius::scene::Scene;
 use snellius::trace::{Tree, on_cpu, part};
 
-use crate::lockstep::devices::find;
+use crate::lockstep::devices::on_each;
 
 fn subject(name: &str, size: [u32; 2]) -> (FlatScene, View, Settings) {
     let scene = Scene::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name)).unwrap();
@@ -74,14 +74,14 @@ fn the_tree_is_that_of_the_picture() {
 fn an_adapter_records_the_same_tree_bit_for_bit() {
     let (flat, view, settings) = subject("goblet.toml", [32, 24]);
     let pixels = [[16, 12], [10, 8], [16, 20], [0, 0]];
-    // On SwiftShader no tree came back within minutes, for a reason that is not known yet.
-    let Some(options) = find("llvmpipe") else { return };
-    let mut renderer = GpuRenderer::new(&flat, &options).unwrap();
-    for pixel in pixels {
-        let traced = renderer.trace_tree(&view, &settings, pixel).unwrap();
-        let expected = on_cpu(&flat, &view, &settings, pixel);
-        assert_eq!(part(&expected.nodes, &traced.nodes, true), None, "{pixel:?}");
-        assert_eq!(traced.texel, expected.texel);
-        assert!(!traced.nodes.is_empty() && traced.recorded as usize == traced.nodes.len());
-    }
+    on_each(|options| {
+        let mut renderer = GpuRenderer::new(&flat, options).unwrap();
+        for pixel in pixels {
+            let traced = renderer.trace_tree(&view, &settings, pixel).unwrap();
+            let expected = on_cpu(&flat, &view, &settings, pixel);
+            assert_eq!(part(&expected.nodes, &traced.nodes, true), None, "{pixel:?}");
+            assert_eq!(traced.texel, expected.texel);
+            assert!(!traced.nodes.is_empty() && traced.recorded as usize == traced.nodes.len());
+        }
+    });
 }

@@ -54,15 +54,17 @@ pub(in crate::cli) struct RenderArgs {
     /// list of names with commas, as `check` prints them; a list brings what its effects need
     #[arg(long, value_name = "LIST", default_value = "auto", value_parser = effect_choice)]
     pub(super) effects: EffectChoice,
-    /// Choose depth, cut-off and precision: the cheapest that keep this error against the whole tree in f64 of the
-    /// same samples, in linear RGB clamped to [0, 1]
+    /// Choose depth, cut-off, samples, threshold and precision: the cheapest that keep this error against samples without
+    /// end of the whole tree in f64, in linear RGB clamped to [0, 1]. With --samples or --adaptive these stay, and the
+    /// error is that against the whole tree of the same samples. At most 4096 samples are asked for
     #[arg(long, value_name = "E", conflicts_with_all = ["depth", "cutoff", "time"], help_heading = "Budget",
         value_parser = |text: &str| number_in(text, 0.0, 1.0))]
     pub(super) error: Option<f64>,
     /// What --error limits: the root mean square, the greatest error, or the mean error that a person sees
     #[arg(long, value_name = "METRIC", default_value = "rmse", requires = "error", help_heading = "Budget")]
     pub(super) metric: ErrorMetric,
-    /// Choose depth, cut-off and precision: the most accurate that trace in so many milliseconds
+    /// Choose the same settings: the most accurate that trace in so many milliseconds. Choosing comes before, and takes
+    /// its own time
     #[arg(long, value_name = "MS", conflicts_with_all = ["depth", "cutoff"], help_heading = "Budget",
         value_parser = |text: &str| number_in(text, 1.0, 1e9))]
     pub(super) time: Option<f64>,

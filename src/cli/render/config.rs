@@ -28,7 +28,7 @@ pub(super) struct RenderConfig {
     pub(super) adaptive: Option<f64>,
     pub(super) effects: EffectChoice,
     pub(super) intersector: Intersector,
-    /// What depth, cut-off and precision are to be chosen for.
+    /// What settings are to be chosen for.
     pub(super) goal: Option<Goal>,
     pub(super) crop: Option<Crop>,
     pub(super) png: PngOptions,
@@ -103,6 +103,17 @@ impl RenderConfig {
                 Err(CliError::usage(format!("--crop {crop} is not inside the picture of {}", Size(size))))
             }
         }
+    }
+}
+
+/// The defaults with what was chosen in place of them.
+pub(super) fn chosen(render: &RenderDefaults, settings: &Settings) -> RenderDefaults {
+    RenderDefaults {
+        size: render.size,
+        depth: settings.depth,
+        cutoff: f64::from(settings.cutoff),
+        samples: settings.samples,
+        adaptive: settings.adaptive.map(f64::from),
     }
 }
 

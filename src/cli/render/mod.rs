@@ -19,6 +19,7 @@ use crate::flatten;
 use crate::layout::constants::BASE_SAMPLES;
 use crate::layout::{EffectSet, Effects, Settings};
 use crate::scene::{Diagnostic, RenderDefaults};
+use crate::study::Request;
 pub(super) use args::{ArithmeticArgs, RenderArgs};
 use config::RenderConfig;
 use report::{RenderReport, Times};
@@ -32,19 +33,21 @@ pub(super) fn run(args: RenderArgs, console: Console) -> Result<Outcome, CliErro
     let mut render = config.overridden(&scene.render);
     let mut settings = config.settings(&render);
     let crop = config.crop(render.size)?;
-    let effects = Effects::of(flat, &settings);
-    let simulated = effects.plan(&settings).effects;
-    warn_of_lacking(&effects, simulated, console);
+    warn_of_lacking(&Effects::of(flat, &settings), &settings, console);
     let mut device = config.device.clone().settle(config.precision, console).open(flat)?;
-    let chosen = match config.goal {
-        None => None,
-        Some(goal) => {
-            let chosen = goal::choose(goal, &mut device, &prepared, render.size, settings, console)?;
-            settings = chosen.settings;
-            (render.depth, render.cutoff) = (settings.depth, f64::from(settings.cutoff));
-            Some(chosen)
-        }
-    };
+    if let Some(goal) = config.goal {
+        let request = Request {
+            scene: flat,
+            camera: &scene.camera,
+            size: render.size,
+            base: settings,
+            keeps_samples: config.samples.is_some() || config.adaptive.is_some(),
+            precisions: &[],
+        };
+        settings = goal::choose(goal, &mut device, request, console)?.settings;
+        render = config::chosen(&render, &settings);
+    }
+    let simulated = Effects::of(flat, &settings).plan(&settings).effects;
     let view = flatten::view(&scene.camera, flat, render.size, crop, &settings);
     let frame = {
         let progress = RenderProgress::start(config.progress, console);
@@ -65,17 +68,15 @@ pub(super) fn run(args: RenderArgs, console: Console) -> Result<Outcome, CliErro
         print_json(&job.report(times))?;
     }
     job.summarise(times, console);
-    if let Some(chosen) = &chosen {
-        console.note(goal::guarantee(&frame));
-        if !chosen.meets {
-            return Ok(Outcome::Failed);
-        }
+    if let Some(goal) = config.goal {
+        console.note(goal::kept(goal, &frame));
     }
     Ok(if frame.complete { Outcome::Done } else { Outcome::Interrupted })
 }
 
 /// Say what the scene calls for and the picture will lack.
-fn warn_of_lacking(effects: &Effects, simulated: EffectSet, console: Console) {
+fn warn_of_lacking(effects: &Effects, settings: &Settings, console: Console) {
+    let simulated = effects.plan(settings).effects;
     let lacking: Vec<_> = effects.findings().iter().filter(|f| f.on && !simulated.has(f.effect)).collect();
     if !lacking.is_empty() {
         let names: EffectSet = lacking.iter().map(|finding| finding.effect).collect();

@@ -1,9 +1,9 @@
 //! `snellius trace`: the whole ray tree of one pixel.
 
+mod report;
+
 use std::path::PathBuf;
 use std::str::FromStr;
-
-use serde::Serialize;
 
 use super::console::{Console, print, print_json};
 use super::prepare::Prepared;
@@ -15,7 +15,8 @@ use crate::flatten;
 use crate::gpu::{GpuOptions, GpuRenderer};
 use crate::layout::constants::{MAX_DEPTH, TREE_NODES};
 use crate::layout::{FlatScene, Float, Precision, Settings, TreeNode, View};
-use crate::trace::{Parting, Tree, drawing, on_cpu, outline, part};
+use crate::trace::{Tree, drawing, on_cpu};
+use report::{Told, TraceReport, heading, parted, text};
 
 /// Show the whole ray tree of one pixel
 ///
@@ -82,48 +83,6 @@ impl FromStr for Pixel {
             text.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
         numbers.map(Self).ok_or_else(|| "expected X,Y in pixels from the top left, as in 120,88".to_owned())
     }
-}
-
-/// What one device says.
-#[derive(Debug, Serialize)]
-struct Told {
-    /// "cpu", or the adapter's name.
-    device: String,
-    precision: String,
-    float: String,
-    /// Rays traced, without those towards lights.
-    rays: usize,
-    shadow_rays: u64,
-    /// Of the pixel's first sample, linear.
-    radiance: [f32; 3],
-    #[serde(flatten)]
-    tree: Tree,
-    #[serde(skip)]
-    records: Vec<TreeNode>,
-}
-
-/// What `--json` prints.
-#[derive(Debug, Serialize)]
-struct TraceReport {
-    scene: String,
-    size: [u32; 2],
-    pixel: [u32; 2],
-    depth: u32,
-    cutoff: f64,
-    trees: Vec<Told>,
-    /// Where each further tree parts from the first.
-    partings: Vec<Parted>,
-}
-
-/// Where two trees part.
-#[derive(Debug, Serialize)]
-struct Parted {
-    from: String,
-    device: String,
-    /// Rays that go another way.
-    way: Option<Parting>,
-    /// Rays that differ in any bit; only of the same precision, strict on both sides.
-    bits: Option<Parting>,
 }
 
 /// A pixel of a scene, ready to be traced.
@@ -236,51 +195,6 @@ impl Subject<'_> {
     }
 }
 
-fn parted(first: &Told, other: &Told) -> Parted {
-    let is_exact = first.precision == other.precision && first.float == other.float;
-    Parted {
-        from: heading(first),
-        device: heading(other),
-        way: part(&first.records, &other.records, false),
-        bits: if is_exact { part(&first.records, &other.records, true) } else { None },
-    }
-}
-
-fn heading(told: &Told) -> String {
-    format!("{} {} {}", told.device, told.precision, told.float)
-}
-
-fn text(trees: &[Told], partings: &[Parted]) -> String {
-    let mut text = String::new();
-    if let Some(told) = trees.first() {
-        let [r, g, b] = told.radiance;
-        text += &format!(
-            "{}: {} rays and {} towards lights; radiance {r} {g} {b}\n\n{}",
-            heading(told),
-            told.rays,
-            told.shadow_rays,
-            outline(&told.tree)
-        );
-    }
-    for parted in partings {
-        text += &format!("\n{}\n", line(parted));
-    }
-    text
-}
-
-/// Whether two trees are one, and where they part.
-fn line(Parted { from, device, way, bits }: &Parted) -> String {
-    match (way, bits) {
-        (Some(Parting { node, what }), _) => {
-            format!("{device} goes another way than {from} from ray {node} on: {what}")
-        }
-        (None, Some(Parting { node, what })) => {
-            format!("{device} goes the same way as {from}; ray {node} is the first to differ: {what}")
-        }
-        (None, None) => format!("{device} goes the same way as {from} with every ray"),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -291,14 +205,5 @@ mod tests {
         for wrong in ["120", "1,2,3", "-1,2", "a,b", ""] {
             assert!(wrong.parse::<Pixel>().is_err(), "{wrong}");
         }
-    }
-
-    #[test]
-    fn what_differs_is_said_with_the_ray() {
-        let parted =
-            |way, bits| Parted { from: "CPU f32 strict".into(), device: "CPU f64 strict".into(), way, bits };
-        let other = Some(Parting { node: 7, what: "body" });
-        assert!(line(&parted(other, None)).ends_with("from ray 7 on: body"));
-        assert!(line(&parted(None, None)).ends_with("with every ray"));
     }
 }
