@@ -7,7 +7,10 @@ use super::subject::Subject;
 
 /// The shader that traces a scene, and the names of its functions, globals and fields.
 fn assembled(name: &str) -> (String, Vec<String>) {
-    let subject = Subject::file(name, [8, 6]);
+    assembled_for(&Subject::file(name, [8, 6]))
+}
+
+fn assembled_for(subject: &Subject) -> (String, Vec<String>) {
     let plan = Effects::of(&subject.flat, &subject.settings).plan(&subject.settings);
     let variant = Variant::new(subject.flat.bvh_depth, &subject.settings, &plan);
     let shader = assemble(SOURCES, "render", "render", &variant).unwrap();
@@ -53,6 +56,22 @@ fn paint_calls_for_no_refraction_absorption_media_or_ray_stack() {
     }
     // What is there is short.
     assert!(wgsl.contains("fn direct(surface: Surface, direction: vec3r) -> Direct"), "{wgsl}");
+}
+
+#[test]
+fn a_tree_of_one_ray_is_never_cut_and_one_of_them_never_rests() {
+    let subject = Subject::file("opaque.toml", [8, 6]);
+    let (_, two) = assembled_for(&subject);
+    let settings = Settings { samples: 1, ..subject.settings };
+    let (_, one) = assembled_for(&subject.under(settings));
+    let (_, tree) = assembled("mirrors.toml");
+    let has = |names: &[String], name: &str| names.contains(&name.to_owned());
+    for name in ["Sample.dropped", "Sample.bound", "worth_tracing"] {
+        assert!(has(&tree, name) && !has(&two, name) && !has(&one, name), "{name}");
+    }
+    for name in ["Film.lanes", "Lane.sample_index", "lane"] {
+        assert!(has(&tree, name) && has(&two, name) && !has(&one, name), "{name}");
+    }
 }
 
 #[test]

@@ -20,16 +20,19 @@ pub(super) struct Subject {
     pub(super) settings: Settings,
 }
 
-/// The scenes of `scenes/` that were read: each once for all tests.
-static READ: LazyLock<Mutex<HashMap<String, (Arc<Scene>, Arc<FlatScene>)>>> = LazyLock::new(Mutex::default);
+/// A scene as it was read and flattened.
+type Loaded = (Arc<Scene>, Arc<FlatScene>);
+
+/// The scenes of `scenes/` that were read, by name: each once for all tests.
+static READ: LazyLock<Mutex<HashMap<String, Loaded>>> = LazyLock::new(Mutex::default);
 
 impl Subject {
     /// A scene of `scenes/`, at two samples a pixel.
     pub(super) fn file(name: &str, size: [u32; 2]) -> Self {
         let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
-        let (scene, flat) = read.entry(name.to_owned()).or_insert_with(|| load(&folder().join(name))).clone();
+        let loaded = read.entry(name.to_owned()).or_insert_with(|| load(&folder().join(name))).clone();
         drop(read);
-        Self::new(name, scene, flat, size, 2)
+        Self::new(name, loaded, size, 2)
     }
 
     /// A scene that is written down here.
@@ -37,12 +40,12 @@ impl Subject {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("scene.toml");
         std::fs::write(&path, text).unwrap();
-        let (scene, flat) = load(&path);
-        let size = scene.render.size;
-        Self::new("the scene", scene, flat, size, 1)
+        let loaded = load(&path);
+        let size = loaded.0.render.size;
+        Self::new("the scene", loaded, size, 1)
     }
 
-    fn new(name: &str, scene: Arc<Scene>, flat: Arc<FlatScene>, size: [u32; 2], samples: u32) -> Self {
+    fn new(name: &str, (scene, flat): Loaded, size: [u32; 2], samples: u32) -> Self {
         let (depth, cutoff) = (scene.render.depth, scene.render.cutoff as f32);
         let settings = Settings { depth, cutoff, samples, ..Settings::default() };
         let view = flatten::view(&scene.camera, &flat, size, None, &settings);
@@ -81,7 +84,7 @@ impl Subject {
     }
 }
 
-fn load(path: &Path) -> (Arc<Scene>, Arc<FlatScene>) {
+fn load(path: &Path) -> Loaded {
     let scene = Scene::load(path).unwrap_or_else(|error| panic!("{error}"));
     let flat = flatten::flatten(&scene).unwrap_or_else(|error| panic!("{error}")).scene;
     (Arc::new(scene), Arc::new(flat))
