@@ -20,6 +20,7 @@ pub const SOURCES: &[Source<'static>] = sources! {
     "material"
     "math"
     "media"
+    "present"
     "probe"
     "probe_arithmetic"
     "probe_paths"

@@ -13,6 +13,7 @@ use super::planted::Planted;
 const ALONE: &[(&str, &str)] = &[
     ("blocks", "src/cpu numbers pixels as it likes"),
     ("bindings", "kernel::World holds what the buffers hold"),
+    ("present", "the viewer's own: from the film to a window"),
     ("probe", "src/selftest/lockstep/record.rs is its twin"),
     ("probe_arithmetic", "src/selftest/arithmetic.rs is its twin"),
     ("probe_paths", "src/selftest/paths.rs is its twin"),
