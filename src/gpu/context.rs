@@ -75,6 +75,9 @@ impl Context {
     pub(super) fn check(&self) -> Result<(), GpuError> {
         match self.faults.lock().unwrap_or_else(PoisonError::into_inner).take() {
             None => Ok(()),
+            Some(Fault::Lost(reason)) if reason.is_empty() => {
+                Err(GpuError::DeviceLost { reason: "the driver does not say why".into() })
+            }
             Some(Fault::Lost(reason)) => Err(GpuError::DeviceLost { reason }),
             Some(Fault::Error(reason)) => Err(self.adapter.refused("a command", reason)),
         }

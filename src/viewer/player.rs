@@ -57,9 +57,9 @@ pub(super) enum Act {
 /// What a script's session took, in milliseconds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Timings {
-    /// Frames of the window.
+    /// Frames of the window while a drag or the wheel moved the camera.
     pub frames: usize,
-    /// The longest one: as long the window answered nobody.
+    /// The longest of them: as long the window answered nobody.
     pub slowest_frame_ms: f64,
     /// Pictures that came while a drag or the wheel moved the camera.
     pub answers: usize,
@@ -181,9 +181,11 @@ impl Player {
         self.idle_percent
     }
 
-    /// Note what a frame of the window took.
+    /// Note what a frame of the window took, if it was one of a movement.
     pub(super) fn frame(&mut self, time: Duration) {
-        self.frames.push(time);
+        if self.is_moving {
+            self.frames.push(time);
+        }
     }
 
     /// Note what the answer to an input took, if that was one of a movement.
