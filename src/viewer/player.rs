@@ -11,7 +11,7 @@ use super::look::ViewKind;
 use super::script::{Event, Expectation};
 
 /// How long an event's effect may take.
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_secs(180);
 /// How long a message may take.
 const TOAST_PATIENCE: Duration = Duration::from_secs(10);
 

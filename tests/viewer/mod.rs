@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 use display::Display;
 
 /// Longest a run of the program may take.
-const PATIENCE: Duration = Duration::from_secs(180);
+const PATIENCE: Duration = Duration::from_secs(400);
 
 /// What a run of the program left behind.
 #[derive(Debug)]
