@@ -1,4 +1,6 @@
 // The viewer: a film on a window, developed or in false colours.
+//
+// src/viewer/present.rs puts the constants that it shares with the renderer before it: BLOCK, NONE, LEAST_NORMAL.
 
 // How a film lies in its buffer, and what is on it.
 struct Reel {
@@ -48,8 +50,6 @@ struct Ranges {
 
 // The view after those of AovKind.
 const DIFFERENCE: u32 = 11u;
-const NOTHING_MET: u32 = 0xffffffffu;
-const BLOCK_SIDE: u32 = 8u;
 // Logarithmic scales span this factor below the greatest value.
 const DECADES: f32 = 6.0;
 
@@ -92,7 +92,7 @@ fn real(side: u32, index: u32) -> f32 {
 
 // Samples of a pixel on a film.
 fn samples_of(film: Reel, pixel: vec2u) -> u32 {
-    let block = (pixel.y / BLOCK_SIDE) * film.columns + pixel.x / BLOCK_SIDE;
+    let block = (pixel.y / BLOCK) * film.columns + pixel.x / BLOCK;
     return film.passes + select(0u, 1u, block < film.blocks);
 }
 
@@ -210,13 +210,13 @@ fn first_hit(kind: u32, side: u32, film: Reel, at: u32) -> vec3f {
     }
     let aov = at + film.aov_at;
     let body = word(side, aov + 4u);
-    if body == NOTHING_MET {
+    if body == NONE {
         return vec3f(0.0);
     }
     switch kind {
         case 1u: {
             let near = bitcast<f32>(ranges.near);
-            let span = max(bitcast<f32>(ranges.far) - near, 1.1754944e-38);
+            let span = max(bitcast<f32>(ranges.far) - near, LEAST_NORMAL);
             return vec3f(1.0 - 0.85 * (real(side, aov + 3u) - near) / span);
         }
         case 2u: {
@@ -287,7 +287,7 @@ fn palette(id: u32) -> vec3f {
 }
 
 // The ranges of the finished film.
-@compute @workgroup_size(8, 8)
+@compute @workgroup_size(BLOCK, BLOCK)
 fn measure(@builtin(global_invocation_id) id: vec3u) {
     let film = look.coarse;
     if id.x >= film.width || id.y >= film.height {
@@ -302,7 +302,7 @@ fn measure(@builtin(global_invocation_id) id: vec3u) {
     } else {
         atomicMax(&measured[3], film.samples);
     }
-    if film.aov_at != 0u && coarse[at + film.aov_at + 4u] != NOTHING_MET {
+    if film.aov_at != 0u && coarse[at + film.aov_at + 4u] != NONE {
         atomicMin(&measured[0], coarse[at + film.aov_at + 3u]);
         atomicMax(&measured[1], coarse[at + film.aov_at + 3u]);
     }

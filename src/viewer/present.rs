@@ -4,12 +4,13 @@ use bytemuck::{Pod, Zeroable, bytes_of};
 
 use super::look::{Look, ViewKind};
 use crate::film::srgb_code;
-use crate::gpu::{Exposure, GpuError, SOURCES, SharedDevice};
+use crate::gpu::{Exposure, GpuError, SharedDevice};
+use crate::layout::constants::{BLOCK, LEAST_NORMAL, NONE};
 
 /// Words of the ranges: near, far, rays, samples, dropped, bound, and two more.
 const RANGES: usize = 8;
-/// Side of a workgroup that measures.
-const GROUP: u32 = 8;
+/// The shader, without the constants that it shares with the renderer.
+const SHADER: &str = include_str!("../../shaders/present.wgsl");
 
 /// How a film lies in its buffer, and what is on it: `Reel` of the shader.
 #[repr(C)]
@@ -76,10 +77,9 @@ impl Presenter {
     pub fn new(device: &SharedDevice, format: wgpu::TextureFormat) -> Self {
         let shared = device;
         let device = shared.device();
-        let text = SOURCES.iter().find(|(stem, _)| *stem == "present").map_or("", |(_, text)| text);
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("present"),
-            source: wgpu::ShaderSource::Wgsl(text.into()),
+            source: wgpu::ShaderSource::Wgsl(shader().into()),
         });
         let read = storage(true);
         let uniform = wgpu::BindingType::Buffer {
@@ -169,7 +169,7 @@ impl Presenter {
             pass.set_pipeline(&self.measure);
             pass.set_bind_group(0, &group, &[]);
             let [width, height] = [coarse.film.width, coarse.film.height];
-            pass.dispatch_workgroups(width.div_ceil(GROUP), height.div_ceil(GROUP), 1);
+            pass.dispatch_workgroups(width.div_ceil(BLOCK), height.div_ceil(BLOCK), 1);
         }
         queue.submit([encoder.finish()]);
     }
@@ -231,6 +231,13 @@ impl Presenter {
             views: [first, second],
         }
     }
+}
+
+/// The whole shader.
+fn shader() -> String {
+    format!(
+        "const BLOCK: u32 = {BLOCK}u;\nconst NONE: u32 = {NONE}u;\nconst LEAST_NORMAL: f32 = {LEAST_NORMAL:e}f;\n{SHADER}"
+    )
 }
 
 fn reel(exposure: &Exposure) -> Reel {
@@ -303,4 +310,33 @@ fn bind(
     let entries: Vec<_> =
         bindings.map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect();
     device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("films"), layout, entries: &entries })
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_shader_is_sound_and_its_records_are_ours() {
+        let module = naga::front::wgsl::parse_str(&shader()).unwrap();
+        let flags = naga::valid::ValidationFlags::all();
+        naga::valid::Validator::new(flags, naga::valid::Capabilities::empty()).validate(&module).unwrap();
+        for (name, bytes) in
+            [("Reel", size_of::<Reel>()), ("Look", size_of::<Uniform>()), ("Ranges", 4 * RANGES)]
+        {
+            let (_, record) = module.types.iter().find(|(_, one)| one.name.as_deref() == Some(name)).unwrap();
+            assert_eq!(record.inner.size(module.to_ctx()) as usize, bytes, "{name}");
+        }
+    }
+
+    #[test]
+    fn each_code_begins_where_its_step_says() {
+        let steps = code_steps();
+        for code in 1..=255_u16 {
+            let first = steps[usize::from(code)];
+            assert_eq!(srgb_code(first, 255), code);
+            assert_eq!(srgb_code(f32::from_bits(first.to_bits() - 1), 255), code - 1);
+        }
+    }
 }
