@@ -102,7 +102,7 @@ impl Shown {
         let exposure = exposure.ok_or("the picture is not complete yet: F12 writes it when it is")?;
         let frame = exposure.frame(&self.canvas.device).map_err(|error| error.to_string())?;
         let path =
-            files::free_name(Path::new("."), &self.session.stem(), "png").ok_or("too many pictures here")?;
+            files::free_name(Path::new(""), &self.session.stem(), "png").ok_or("too many pictures here")?;
         let development = Development { exposure: self.session.look.exposure, ..Development::default() };
         let metadata = self.session.metadata();
         let bytes = encode_png(

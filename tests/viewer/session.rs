@@ -181,6 +181,41 @@ fn a_hand_orbits_resizes_drops_breaks_and_repairs_and_all_is_answered() {
 }
 
 #[test]
+fn keys_write_the_picture_and_the_scene_and_the_difference_is_black() {
+    let Some(display) = Display::open() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("ball.toml"), BALL).unwrap();
+    let script = "wait rest
+                  orbit 30 10 2
+                  wait rest
+                  key F12
+                  expect toast the picture is in ball-001.png
+                  key ctrl+S
+                  expect toast the scene with this camera is in ball-001.toml
+                  view difference
+                  wait 20000
+                  screenshot difference.png";
+    fs::write(folder.path().join("script.txt"), script).unwrap();
+    let words = ["view", "ball.toml", "--backend", "gpu", "--size", "160x120", "--script", "script.txt"];
+    let run = snellius(&display, folder.path(), &words);
+    assert_eq!(run.code, Some(0), "{run:?}");
+    // The scene that was written shows the picture that was written, but for what f32 makes of seven digits.
+    let shown = snellius(
+        &display,
+        folder.path(),
+        &["render", "ball-001.toml", "--backend", "cpu", "--size", "160x120", "-o", "again.png"],
+    );
+    assert_eq!(shown.code, Some(0), "{shown:?}");
+    let (saved, again) =
+        (pixels(&folder.path().join("ball-001.png")), pixels(&folder.path().join("again.png")));
+    let far = saved.pixels().zip(again.pixels()).filter(|(a, b)| (0..3).any(|c| a[c].abs_diff(b[c]) > 2));
+    assert!(far.count() < 200, "the camera was not kept");
+    let difference = pixels(&folder.path().join("difference.png"));
+    let seen = (0..160).filter(|&x| difference.get_pixel(x, 60) != &image::Rgb([0, 0, 0])).count();
+    assert_eq!(seen, 0, "lavapipe's bits are the CPU's");
+}
+
+#[test]
 fn a_script_that_is_not_met_fails_with_its_line() {
     let Some(display) = Display::open() else { return };
     let folder = tempfile::tempdir().unwrap();
