@@ -316,8 +316,10 @@ impl Shown {
         Ok([self.wake, self.reload, play].into_iter().flatten().min())
     }
 
-    /// Whether the picture is what was asked for, complete and on the window.
+    /// Whether the picture is what was asked for, complete and on the window, and compared where that is asked for.
     pub(super) fn is_at_rest(&self) -> bool {
-        self.session.is_complete() && self.unanswered.is_empty() && self.wanted.is_some()
+        let look = &self.session.look;
+        let is_compared = look.reference.is_some() || !look.needs_reference();
+        self.session.is_complete() && self.unanswered.is_empty() && self.wanted.is_some() && is_compared
     }
 }

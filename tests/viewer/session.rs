@@ -193,7 +193,7 @@ fn keys_write_the_picture_and_the_scene_and_the_difference_is_black() {
                   key ctrl+S
                   expect toast the scene with this camera is in ball-001.toml
                   view difference
-                  wait 20000
+                  wait rest
                   screenshot difference.png";
     fs::write(folder.path().join("script.txt"), script).unwrap();
     let words = ["view", "ball.toml", "--backend", "gpu", "--size", "160x120", "--script", "script.txt"];
