@@ -70,13 +70,7 @@ impl Shown {
         match act {
             Act::Inputs(inputs) => {
                 if is_new {
-                    let input = self.input.egui_input_mut();
-                    for event in &inputs {
-                        if let egui::Event::Key { pressed, modifiers, .. } = event {
-                            input.modifiers = if *pressed { *modifiers } else { egui::Modifiers::NONE };
-                        }
-                    }
-                    input.events.extend(inputs);
+                    self.input.egui_input_mut().events.extend(inputs);
                     self.awaited = self.frames + 1;
                 } else if self.frames >= self.awaited {
                     return Ok(Effect::Done);

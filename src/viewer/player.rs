@@ -238,7 +238,11 @@ fn acts(event: Event, place: Place) -> Vec<Act> {
         }
         Event::Key(modifiers, key) => {
             let press = |pressed| Input::Key { key, physical_key: None, pressed, repeat: false, modifiers };
-            vec![Act::Inputs(vec![press(true)]), Act::Inputs(vec![press(false)]), Act::AwaitPicture]
+            vec![
+                Act::Inputs(vec![Input::ModifiersChanged(modifiers), press(true)]),
+                Act::Inputs(vec![press(false), Input::ModifiersChanged(Modifiers::NONE)]),
+                Act::AwaitPicture,
+            ]
         }
         Event::Resize(size) => vec![Act::Resize(size), Act::AwaitPicture],
         Event::Minimise(is_down) => vec![Act::Minimise(is_down)],
