@@ -14,3 +14,5 @@ pub mod scene;
 pub mod selftest;
 pub mod study;
 pub mod trace;
+#[cfg(feature = "viewer")]
+pub mod viewer;

@@ -11,3 +11,5 @@ mod selftest;
 mod study;
 mod theory;
 mod trace;
+#[cfg(feature = "viewer")]
+mod viewer;

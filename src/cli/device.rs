@@ -38,6 +38,12 @@ pub(super) enum Choice {
 }
 
 impl DeviceArgs {
+    /// Threads of the CPU; 0 for one each core.
+    #[cfg(feature = "viewer")]
+    pub(super) fn threads(&self) -> usize {
+        self.threads.map_or(0, |threads| threads as usize)
+    }
+
     pub(super) fn choice(self) -> Result<Choice, CliError> {
         let threads = self.threads.map_or(0, |threads| threads as usize);
         match (self.backend, self.adapter) {
@@ -76,7 +82,7 @@ impl Choice {
 }
 
 /// Where compiled pipelines are kept between runs: the user's cache folder, as the operating system has it.
-fn pipeline_folder() -> Option<PathBuf> {
+pub(super) fn pipeline_folder() -> Option<PathBuf> {
     let folders = directories::ProjectDirs::from("", "", "snellius")?;
     Some(folders.cache_dir().join("pipelines"))
 }

@@ -11,6 +11,8 @@ use crate::gpu::GpuError;
 use crate::scene::{Diagnostic, SceneError};
 use crate::selftest::DeviceError;
 use crate::study::StudyError;
+#[cfg(feature = "viewer")]
+use crate::viewer::ViewerError;
 
 /// How a command that met no error ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -69,6 +71,9 @@ pub(super) enum CliError {
     Gpu(#[from] GpuError),
     #[error(transparent)]
     Study(StudyError),
+    #[cfg(feature = "viewer")]
+    #[error(transparent)]
+    Viewer(#[from] ViewerError),
     #[error("cannot write the report as JSON: {0}")]
     Json(serde_json::Error),
 }
@@ -132,6 +137,8 @@ impl CliError {
         match self {
             Self::Gpu(error) => error.exit_code(),
             Self::Unmet { .. } => Outcome::Failed.exit_code(),
+            #[cfg(feature = "viewer")]
+            Self::Viewer(error) => error.exit_code(),
             Self::Usage { .. }
             | Self::Cpu(_)
             | Self::Scene(_)
@@ -158,6 +165,8 @@ impl CliError {
         let hint = match self {
             Self::Usage { hint, .. } => hint.clone(),
             Self::Unmet { hint, .. } => Some(hint.clone()),
+            #[cfg(feature = "viewer")]
+            Self::Viewer(error) => error.hint().map(str::to_owned),
             _ => None,
         };
         Diagnostic { hint, ..Diagnostic::error(self.to_string()) }.render(color)

@@ -36,10 +36,11 @@ use error::{CliError, Outcome};
     version,
     override_usage = "snellius <COMMAND> [OPTIONS]\n       snellius <SCENE>",
     after_help = "\
-A scene is a .toml file (docs/scenes.md describes it) or a bare .obj mesh. There is no viewer yet:
-`snellius SCENE` says how to render it.
+A scene is a .toml file (docs/scenes.md describes it) or a bare .obj mesh. `snellius SCENE` opens it in a
+window, as `snellius view SCENE` does, unless the program was built without the viewer.
 
 Examples:
+  snellius scenes/ice.toml
   snellius render scenes/ice.toml -o ice.png
   snellius check scenes/ice.toml
   snellius help render
@@ -69,6 +70,8 @@ enum Command {
     Study(study::StudyArgs),
     Trace(trace::TraceArgs),
     Selftest(selftest::SelftestArgs),
+    #[cfg(feature = "viewer")]
+    View(Box<view::ViewArgs>),
     /// A scene, or a mistake.
     #[command(external_subcommand)]
     Scene(Vec<OsString>),
@@ -101,7 +104,9 @@ fn run(cli: Cli, console: Console) -> Result<Outcome, CliError> {
         Some(Command::Study(args)) => study::run(args, console),
         Some(Command::Trace(args)) => trace::run(&args, console),
         Some(Command::Selftest(args)) => selftest::run(&args, console),
-        Some(Command::Scene(words)) => Err(view::no_viewer(&words)),
+        #[cfg(feature = "viewer")]
+        Some(Command::View(args)) => view::run(*args, console),
+        Some(Command::Scene(words)) => view::open_words(&words, console),
         None => {
             console::print(&Cli::command().render_help().to_string())?;
             Ok(Outcome::Done)

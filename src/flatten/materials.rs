@@ -2,7 +2,7 @@
 
 use super::number::{narrow, narrow3};
 use super::texels::Texels;
-use crate::layout::{Attribute, Material};
+use crate::layout::{Attribute, FlatTexture, Material};
 use crate::scene::{self, MaterialId, Scene};
 
 /// Which row of the table each material of the scene has.
@@ -41,8 +41,12 @@ impl Rows {
 /// The table and its names; textures are appended to the texels.
 pub(super) fn table(scene: &Scene, rows: &Rows, texels: &mut Texels) -> (Vec<Material>, Vec<String>) {
     let worn = (0..).zip(&scene.materials).filter(|&(index, _)| rows.row(MaterialId(index)) > 0);
-    let (materials, names): (Vec<_>, Vec<_>) =
-        worn.map(|(_, material)| (record(scene, material, texels), material.name.clone())).unzip();
+    let (materials, names): (Vec<_>, Vec<_>) = worn
+        .map(|(_, material)| {
+            let texture = material.texture.map(|id| texels.texture(scene, id));
+            (record(material, texture), material.name.clone())
+        })
+        .unzip();
     ([&[AIR], materials.as_slice()].concat(), [&["air".to_owned()], names.as_slice()].concat())
 }
 
@@ -62,8 +66,24 @@ const AIR: Material = Material {
     texture_height: 0,
 };
 
-fn record(scene: &Scene, material: &scene::Material, texels: &mut Texels) -> Material {
-    let texture = material.texture.map(|id| texels.texture(scene, id));
+/// Put changed materials in place of those of a table; false where one became transmissive, or ceased to be.
+pub(super) fn revise(scene: &Scene, table: &mut [Material]) -> bool {
+    let rows = Rows::new(scene);
+    let changed =
+        (0..).zip(&scene.materials).map(|(index, material)| (rows.row(MaterialId(index)), material));
+    for (row, material) in changed.filter(|&(row, _)| row > 0) {
+        let Some(before) = table.get_mut(row as usize) else { return false };
+        if (before.transmission != [0.0; 3]) != material.is_transmissive() {
+            return false;
+        }
+        let Material { texture: first, texture_width: width, texture_height: height, .. } = *before;
+        let texture = material.texture.map(|_| FlatTexture { first, width, height });
+        *before = record(material, texture);
+    }
+    true
+}
+
+fn record(material: &scene::Material, texture: Option<FlatTexture>) -> Material {
     Material {
         ambient: narrow3(material.ambient),
         ior: narrow(material.ior),

@@ -114,6 +114,21 @@ pub fn flatten(scene: &Scene) -> Result<Flattened, SceneError> {
     Ok(Flattened { scene, warnings, without_area, merged, bvh, bvh_time })
 }
 
+/// Put a scene's changed lights and materials in place of those of its flat form, which is quick: no geometry is looked
+/// at but for a light's distance. False, and nothing of use, where a material became transmissive or ceased to be: then
+/// bodies and interfaces are others, and the scene is to be flattened anew.
+///
+/// # Errors
+/// A light beyond 2^60.
+pub fn revise(scene: &Scene, flat: &mut FlatScene) -> Result<bool, SceneError> {
+    flat.lights = scene.lights.iter().enumerate().map(light).collect::<Result<_, _>>()?;
+    if !materials::revise(scene, &mut flat.materials) {
+        return Ok(false);
+    }
+    flat.radiance_bound = radiance::bounds(flat);
+    Ok(true)
+}
+
 /// The triangles of all models, how many have no area and are left out, and what is suspicious about them.
 fn faces_of_models(
     scene: &Scene,

@@ -115,6 +115,13 @@ impl AdapterReport {
         }
     }
 
+    /// Whether it may be asked if it can show pictures on a window: the SwiftShader of Chromium has no windows, and crashes
+    /// when it is asked (seen with Chromium 156).
+    #[must_use]
+    pub fn knows_windows(&self) -> bool {
+        !self.driver.contains("SwiftShader")
+    }
+
     /// Whether `part`, in any case, is part of the device's or the driver's name. `lavapipe` stands for
     /// `llvmpipe`, the name that it gives itself.
     #[must_use]
@@ -132,7 +139,8 @@ pub fn adapters() -> Vec<AdapterReport> {
 }
 
 /// The connection to the Vulkan loader, with wgpu's environment variables honoured.
-pub(super) fn instance() -> wgpu::Instance {
+#[must_use]
+pub fn instance() -> wgpu::Instance {
     let wanted = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
     wgpu::Instance::new(wgpu::InstanceDescriptor {
         backends: wanted.backends & wgpu::Backends::VULKAN,
@@ -149,8 +157,26 @@ fn enumerate(instance: &wgpu::Instance) -> Vec<wgpu::Adapter> {
 /// # Errors
 /// [`GpuError::NoAdapter`].
 pub(super) fn choose(instance: &wgpu::Instance, wanted: Option<&str>) -> Result<wgpu::Adapter, GpuError> {
+    choose_among(enumerate(instance), wanted)
+}
+
+/// The same among those that can show pictures on a window's surface.
+///
+/// # Errors
+/// [`GpuError::NoAdapter`].
+pub(super) fn choose_for(
+    instance: &wgpu::Instance,
+    surface: &wgpu::Surface<'_>,
+    wanted: Option<&str>,
+) -> Result<wgpu::Adapter, GpuError> {
+    let able = |adapter: &wgpu::Adapter| {
+        AdapterReport::new(adapter).knows_windows() && adapter.is_surface_supported(surface)
+    };
+    choose_among(enumerate(instance).into_iter().filter(able).collect(), wanted)
+}
+
+fn choose_among(mut adapters: Vec<wgpu::Adapter>, wanted: Option<&str>) -> Result<wgpu::Adapter, GpuError> {
     let wanted = wanted.map(str::to_owned).or_else(|| std::env::var("WGPU_ADAPTER_NAME").ok());
-    let mut adapters = enumerate(instance);
     let reports: Vec<_> = adapters.iter().map(AdapterReport::new).collect();
     match best(&reports, wanted.as_deref()) {
         Some(index) => Ok(adapters.swap_remove(index)),

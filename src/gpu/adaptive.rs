@@ -6,9 +6,11 @@
 
 use std::cell::Cell;
 use std::ops::ControlFlow;
+use std::sync::Arc;
 use std::time::Instant;
 
-use super::film::Pixels;
+use super::blocks::Blocks;
+use super::film::{FilmBuffer, Pixels};
 use super::job::Job;
 use super::pace::Pace;
 use super::{GpuError, GpuRenderer, Variant, pipeline};
@@ -27,7 +29,7 @@ pub(super) struct Sifter {
 }
 
 /// A band in work, with its border.
-struct Rounds<'a> {
+pub(super) struct Rounds<'a> {
     job: Job<'a>,
     sifter: Sifter,
     threshold: f32,
@@ -112,7 +114,12 @@ impl GpuRenderer {
     }
 
     /// All that a band needs to be traced.
-    fn rounds(&mut self, grown: &View, variant: &Variant, threshold: f32) -> Result<Rounds<'_>, GpuError> {
+    pub(super) fn rounds(
+        &mut self,
+        grown: &View,
+        variant: &Variant,
+        threshold: f32,
+    ) -> Result<Rounds<'_>, GpuError> {
         let sifter = self.sifter(variant)?;
         let job = self.prepare(grown, variant)?;
         if job.band_height < job.blocks.height {
@@ -140,9 +147,30 @@ impl GpuRenderer {
 }
 
 impl Rounds<'_> {
+    /// Trace the film as a picture of its own.
+    pub(super) fn trace_whole(
+        &mut self,
+        progress: &dyn Progress,
+        pixels: u64,
+    ) -> Result<ControlFlow<()>, GpuError> {
+        let total = pixels * u64::from(self.limit);
+        self.trace(&Meter { progress, before: 0, total, told: Cell::new(0) })
+    }
+
+    /// The film in work.
+    pub(super) fn film(&self) -> &Arc<FilmBuffer> {
+        &self.job.film
+    }
+
+    /// Rays traced so far.
+    pub(super) fn rays(&self) -> RayCounts {
+        self.rays
+    }
+
     /// Trace the film round by round, and settle it.
     fn trace(&mut self, meter: &Meter<'_>) -> Result<ControlFlow<()>, GpuError> {
-        self.job.film.clear(self.job.context);
+        let Blocks { width, height, .. } = self.job.blocks;
+        self.job.film.clear(self.job.context, u64::from(width) * u64::from(height));
         let blocks = self.job.blocks.count();
         let mut flow =
             self.trace_pass(&Pass { listed: 0, blocks, before: 0, samples: BASE_SAMPLES }, meter)?;
@@ -312,14 +340,14 @@ mod tests {
         let whole = renderer.render(&subject.view, &subject.settings, &()).unwrap();
         assert_same(&whole, &cpu);
         // Four rows of blocks fit, and most of a fifth.
-        let film = renderer.film.take().unwrap();
+        let film = renderer.films.pop().unwrap();
         renderer.context.adapter.max_storage_binding = film.buffer.size() - 45 * 22 * 96;
         let banded = renderer.render(&subject.view, &subject.settings, &()).unwrap();
         assert_eq!((&banded.texels, &banded.samples), (&cpu.texels, &cpu.samples));
         assert_eq!((banded.height, banded.aovs), (60, cpu.aovs));
         // Borders were traced twice.
         assert!(banded.rays.total() > cpu.rays.total());
-        renderer.film = None;
+        renderer.films.clear();
         renderer.context.adapter.max_storage_binding = 64 << 10;
         let error = renderer.render(&subject.view, &subject.settings, &()).unwrap_err();
         assert!(matches!(error, GpuError::TooLarge { .. }), "{error}");

@@ -37,8 +37,12 @@ enum Fault {
 impl Context {
     /// Open the adapter that the options ask for.
     pub(super) fn new(options: &GpuOptions) -> Result<Self, GpuError> {
-        let adapter = choose(&instance(), options.adapter.as_deref())?;
-        let report = AdapterReport::new(&adapter);
+        Self::open(&choose(&instance(), options.adapter.as_deref())?, options)
+    }
+
+    /// Open this adapter.
+    pub(super) fn open(adapter: &wgpu::Adapter, options: &GpuOptions) -> Result<Self, GpuError> {
+        let report = AdapterReport::new(adapter);
         if report.max_storage_buffers < STORAGE_BUFFERS {
             let reason = format!("a shader sees {} storage buffers there", report.max_storage_buffers);
             return Err(report.refused("eight storage buffers", reason));
@@ -71,6 +75,9 @@ impl Context {
     pub(super) fn check(&self) -> Result<(), GpuError> {
         match self.faults.lock().unwrap_or_else(PoisonError::into_inner).take() {
             None => Ok(()),
+            Some(Fault::Lost(reason)) if reason.is_empty() => {
+                Err(GpuError::DeviceLost { reason: "the driver does not say why".into() })
+            }
             Some(Fault::Lost(reason)) => Err(GpuError::DeviceLost { reason }),
             Some(Fault::Error(reason)) => Err(self.adapter.refused("a command", reason)),
         }
@@ -200,10 +207,14 @@ impl AdapterReport {
     }
 }
 
-/// Keep the first fault that the driver reports.
+/// Keep the first fault that the driver reports, or that the device is lost.
 fn listen(device: &wgpu::Device, faults: &Arc<Mutex<Option<Fault>>>) {
     let note = |faults: &Mutex<Option<Fault>>, fault| {
-        faults.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(fault);
+        let mut first = faults.lock().unwrap_or_else(PoisonError::into_inner);
+        // That the device is gone explains what came before.
+        if matches!((&*first, &fault), (None, _) | (Some(Fault::Error(_)), Fault::Lost(_))) {
+            *first = Some(fault);
+        }
     };
     let sink = Arc::clone(faults);
     device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {

@@ -44,8 +44,7 @@ pub(super) struct Pixels {
     pub(super) statistics: Vec<Statistics>,
 }
 
-/// A film in device memory: of the whole picture, or of a band of it. A clone is the same film.
-#[derive(Clone)]
+/// A film in device memory: of the whole picture, or of a band of it.
 pub(super) struct FilmBuffer {
     pub(super) buffer: wgpu::Buffer,
     head: wgpu::Buffer,
@@ -76,9 +75,19 @@ impl FilmBuffer {
         })
     }
 
-    /// Whether it is laid out so.
+    /// Whether it is laid out so, with room for as many pixels.
     pub(super) fn fits(&self, texels_at: u64, pixels: u64, layout: PixelLayout) -> bool {
-        (self.texels_at, self.pixels, self.layout) == (texels_at, pixels, layout)
+        (self.texels_at, self.layout) == (texels_at, layout) && self.pixels >= pixels
+    }
+
+    /// Bytes before the texels.
+    pub(super) fn texels_at(&self) -> u64 {
+        self.texels_at
+    }
+
+    /// What it holds of a pixel.
+    pub(super) fn layout(&self) -> PixelLayout {
+        self.layout
     }
 
     /// How many pixels fit a buffer of `limit` bytes.
@@ -91,10 +100,10 @@ impl FilmBuffer {
         self.texels_at + pixels * self.layout.size()
     }
 
-    /// Forget the pixels.
-    pub(super) fn clear(&self, context: &Context) {
+    /// Forget the first `pixels` of its pixels.
+    pub(super) fn clear(&self, context: &Context, pixels: u64) {
         let mut encoder = context.encoder();
-        encoder.clear_buffer(&self.buffer, self.texels_at, None);
+        encoder.clear_buffer(&self.buffer, self.texels_at, Some(pixels * self.layout.size()));
         context.queue.submit([encoder.finish()]);
     }
 

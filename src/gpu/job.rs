@@ -1,6 +1,7 @@
 //! One picture in work: band after band of it in the film, each tile after tile.
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::GpuError;
@@ -20,7 +21,7 @@ pub(super) struct Job<'a> {
     pub(super) context: &'a Context,
     pub(super) pipeline: wgpu::ComputePipeline,
     /// Holds `band_height` rows.
-    pub(super) film: FilmBuffer,
+    pub(super) film: Arc<FilmBuffer>,
     pub(super) group: wgpu::BindGroup,
     pub(super) blocks: Blocks,
     pub(super) band_height: u32,
@@ -40,10 +41,10 @@ impl Job<'_> {
         for first_row in (0..self.blocks.height).step_by(self.band_height as usize) {
             let end_row = self.blocks.height.min(first_row + self.band_height);
             let start = Instant::now();
-            self.film.clear(self.context);
+            let pixels = u64::from(self.blocks.width) * u64::from(end_row - first_row);
+            self.film.clear(self.context, pixels);
             let flow = self.trace_band(first_row, end_row, pace, progress, &mut frame.rays)?;
             let traced = Instant::now();
-            let pixels = u64::from(self.blocks.width) * u64::from(end_row - first_row);
             self.film.read(self.context, pixels, &mut read)?;
             frame.times.trace += traced - start;
             frame.times.readback += traced.elapsed();

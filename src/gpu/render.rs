@@ -1,6 +1,7 @@
 //! A scene on an adapter, and the pictures that are traced of it.
 
 use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
@@ -14,7 +15,7 @@ use super::film::{FilmBuffer, PixelLayout};
 use super::job::Job;
 use super::pace::Pace;
 use super::pipelines::Pipelines;
-use super::{AdapterReport, GpuError, GpuOptions, Portions, SOURCES, Source, Variant};
+use super::{AdapterReport, GpuError, GpuOptions, Portions, SOURCES, SharedDevice, Source, Variant};
 use crate::film::{Frame, Progress, RayCounts, Renderer, SampleCounts, TraceTimes};
 use crate::layout::constants::BLOCK;
 use crate::layout::{FlatScene, Float, Plan, Scan, Settings, Tile, View};
@@ -43,7 +44,10 @@ pub struct GpuRenderer {
     pub(super) sifters: HashMap<Variant, Sifter>,
     /// Variants that have been dispatched.
     warm: HashSet<Variant>,
-    pub(super) film: Option<FilmBuffer>,
+    /// Those that are lent out are not written to.
+    pub(super) films: Vec<Arc<FilmBuffer>>,
+    /// What the adapter did at the end of the last exposure, and by which pipeline.
+    pub(super) pace: Option<(Variant, Pace)>,
     /// See [`Portions::pixels`].
     band_pixels: u64,
 }
@@ -67,7 +71,22 @@ impl GpuRenderer {
         options: &GpuOptions,
         sources: &'static [Source<'static>],
     ) -> Result<Self, GpuError> {
-        let context = Context::new(options)?;
+        Self::in_context(Context::new(options)?, scene, sources)
+    }
+
+    /// Upload the scene to a device that others use too.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn on(device: &SharedDevice, scene: &FlatScene) -> Result<Self, GpuError> {
+        Self::in_context(device.context.clone(), scene, SOURCES)
+    }
+
+    fn in_context(
+        context: Context,
+        scene: &FlatScene,
+        sources: &'static [Source<'static>],
+    ) -> Result<Self, GpuError> {
         let start = Instant::now();
         let buffers = SceneBuffers::new(&context, scene)?;
         let pipelines = Pipelines::new(&context, &buffers.layout, sources);
@@ -81,7 +100,8 @@ impl GpuRenderer {
             pipelines,
             sifters: HashMap::new(),
             warm: HashSet::new(),
-            film: None,
+            pace: None,
+            films: Vec::new(),
             band_pixels: u64::MAX,
         })
     }
@@ -143,12 +163,12 @@ impl GpuRenderer {
     }
 
     /// What is simulated under these settings.
-    fn plan(&self, settings: &Settings) -> Plan {
+    pub(super) fn plan(&self, settings: &Settings) -> Plan {
         self.scan.effects(settings).plan(settings)
     }
 
     /// The variant for these settings: fast where the adapter cannot be strict.
-    fn variant(&self, settings: &Settings) -> Variant {
+    pub(super) fn variant(&self, settings: &Settings) -> Variant {
         let variant = self.variant_of(settings, &self.plan(settings));
         let float = if self.context.adapter.strict_float { variant.float } else { Float::Fast };
         Variant { float, ..variant }
@@ -189,20 +209,35 @@ impl GpuRenderer {
 
     /// Rows of the view's crop that fit one film, in whole blocks; one row of blocks at the least.
     pub(super) fn film_rows(&mut self, view: &View, variant: &Variant) -> Result<u32, GpuError> {
-        let compiled = self.pipelines.compile(variant)?;
         let [_, _, width, height] = view.crop;
-        let limit = self.context.largest_binding();
-        let most_pixels = FilmBuffer::most_pixels(limit, compiled.texels_at, PixelLayout::of(variant));
-        Ok(Blocks::new(width, height).band_height(most_pixels.min(self.band_pixels)))
+        Ok(Blocks::new(width, height).band_height(self.most_film_pixels(variant)?))
     }
 
-    /// The film of the last picture if it is laid out so, else a new one.
-    fn film(&mut self, texels_at: u64, pixels: u64, layout: PixelLayout) -> Result<FilmBuffer, GpuError> {
-        let film = match self.film.take() {
-            Some(film) if film.fits(texels_at, pixels, layout) => film,
-            _ => FilmBuffer::new(&self.context, texels_at, pixels, layout)?,
-        };
-        Ok(self.film.insert(film).clone())
+    /// Pixels that fit one film.
+    pub(super) fn most_film_pixels(&mut self, variant: &Variant) -> Result<u64, GpuError> {
+        let compiled = self.pipelines.compile(variant)?;
+        let limit = self.context.largest_binding();
+        let most_pixels = FilmBuffer::most_pixels(limit, compiled.texels_at, PixelLayout::of(variant));
+        Ok(most_pixels.min(self.band_pixels))
+    }
+
+    /// A film of an earlier picture if it is laid out so and nobody looks at it, else a new one.
+    fn film(
+        &mut self,
+        texels_at: u64,
+        pixels: u64,
+        layout: PixelLayout,
+    ) -> Result<Arc<FilmBuffer>, GpuError> {
+        let is_free = |film: &Arc<FilmBuffer>| Arc::strong_count(film) == 1;
+        let fits = |film: &&Arc<FilmBuffer>| is_free(film) && film.fits(texels_at, pixels, layout);
+        if let Some(film) = self.films.iter().find(fits) {
+            return Ok(Arc::clone(film));
+        }
+        // Their memory may be needed.
+        self.films.retain(|film| !is_free(film));
+        let film = Arc::new(FilmBuffer::new(&self.context, texels_at, pixels, layout)?);
+        self.films.push(Arc::clone(&film));
+        Ok(film)
     }
 }
 

@@ -6,7 +6,7 @@ macro_rules! sources {
     ($($stem:literal)*) => { &[$(($stem, include_str!(concat!("../../shaders/", $stem, ".wgsl")))),*] };
 }
 
-/// Every file of `shaders/`, by stem.
+/// Every file of `shaders/` that traces, by stem.
 pub const SOURCES: &[Source<'static>] = sources! {
     "adaptive"
     "background"

@@ -127,6 +127,17 @@ mod tests {
     }
 
     #[test]
+    fn a_camera_is_carried_round_its_target() {
+        let camera = read("eye = [3, 1.6, 5]\ntarget = [1, 0.6, 0]").unwrap();
+        let turned = camera.turned(90.0);
+        assert!((turned.eye - DVec3::new(6.0, 1.6, -2.0)).length() < 1e-12, "{}", turned.eye);
+        let target = turned.eye + turned.forward * turned.target_distance;
+        assert!((target - DVec3::new(1.0, 0.6, 0.0)).length() < 1e-12);
+        assert!((turned.right.cross(turned.up) + turned.forward).length() < 1e-12);
+        assert_eq!(camera.turned(0.0), camera);
+    }
+
+    #[test]
     fn a_basis_is_kept_and_made_exact() {
         let camera =
             read("eye = [0, 0, 0]\nright = [1, 0.0005, 0]\nup = [0, 1, 0]\nforward = [0, 0, -1]").unwrap();

@@ -30,6 +30,7 @@ impl Scene {
             materials,
             textures: Vec::new(),
             models,
+            meshes: Vec::new(),
             warnings: Vec::new(),
         }
     }

@@ -118,6 +118,7 @@ fn from_toml(source: &Source, limits: Limits, refine: i32) -> Result<Scene, Scen
     warnings.extend(unused_materials(&document, source));
     Ok(Scene {
         source: source.path.clone(),
+        meshes: models.files(),
         camera: aim(camera.flatten(), document.camera.as_ref(), &models.list),
         render: render_defaults(&document.render),
         ambient: surroundings::ambient(document.ambient.as_ref()),
@@ -192,6 +193,7 @@ fn from_mesh(path: &Path, limits: Limits) -> Result<Scene, SceneError> {
     let ball = default_view::bounding_ball(std::slice::from_ref(&model));
     Ok(Scene {
         source: path.into(),
+        meshes: models.files(),
         camera: default_view::camera(ball),
         render: RenderDefaults::default(),
         ambient: default_view::AMBIENT,

@@ -7,7 +7,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use glam::{DAffine3, DVec2, DVec3};
+use glam::{DAffine3, DQuat, DVec2, DVec3};
 
 mod camera;
 mod code;
@@ -47,6 +47,8 @@ pub use limits::Limits;
 pub struct Scene {
     /// The file it came from.
     pub source: PathBuf,
+    /// The mesh files that were read for it.
+    pub meshes: Vec<PathBuf>,
     /// Where the picture is taken from.
     pub camera: Camera,
     /// Defaults for the command line's flags.
@@ -82,6 +84,22 @@ pub struct Camera {
     pub target_distance: f64,
     /// Vertical field of view in degrees, in (0, 180).
     pub fov_y: f64,
+}
+
+impl Camera {
+    /// The camera carried round the vertical axis through its target by so many degrees, counter-clockwise seen from above.
+    #[must_use]
+    pub fn turned(&self, degrees: f64) -> Self {
+        let turn = DQuat::from_axis_angle(DVec3::Y, degrees.to_radians());
+        let target = self.eye + self.forward * self.target_distance;
+        Self {
+            eye: target + turn * (self.eye - target),
+            right: turn * self.right,
+            up: turn * self.up,
+            forward: turn * self.forward,
+            ..self.clone()
+        }
+    }
 }
 
 /// The scene's own settings; the command line overrides each.

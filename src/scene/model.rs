@@ -102,6 +102,13 @@ impl Models {
         Ok(())
     }
 
+    /// The mesh files read so far, in order.
+    pub(super) fn files(&self) -> Vec<PathBuf> {
+        let mut files: Vec<_> = self.meshes.keys().cloned().collect();
+        files.sort_unstable();
+        files
+    }
+
     /// Read a mesh file, or find it among those already read.
     pub(super) fn read(&mut self, path: &Path) -> Result<(Arc<Mesh>, Arc<Obj>), SceneError> {
         if let Some(loaded) = self.meshes.get(path) {

@@ -113,6 +113,22 @@ fn a_crop_is_the_same_part_of_the_whole_picture() {
 }
 
 #[test]
+fn a_turntable_begins_with_the_picture_and_goes_round() {
+    let folder = scene_folder();
+    let turned = snellius(folder.path(), "render ball.toml -o turn.png --turntable 4 --backend cpu");
+    assert_eq!(turned.code, 0, "{}", turned.stderr);
+    assert_eq!(snellius(folder.path(), "render ball.toml -o one.png --backend cpu").code, 0);
+    let pixels = |name: &str| image::open(folder.path().join(name)).expect("a picture").to_rgb8().into_raw();
+    assert_eq!(pixels("turn-000.png"), pixels("one.png"));
+    assert_ne!(pixels("turn-001.png"), pixels("one.png"));
+    assert_eq!(
+        files_in(folder.path()),
+        ["ball.toml", "one.png", "turn-000.png", "turn-001.png", "turn-002.png", "turn-003.png"]
+    );
+    assert_eq!(snellius(folder.path(), "render ball.toml -o - --turntable 4").code, 2);
+}
+
+#[test]
 fn the_number_of_threads_never_shows() {
     let folder = scene_folder();
     for threads in [1, 3] {

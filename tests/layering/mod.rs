@@ -18,6 +18,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("plot", &[]),
     ("study", &["flatten", "cpu", "gpu", "film", "layout", "scene", "plot"]),
     ("trace", &["kernel", "gpu", "flatten", "film", "layout", "scene", "plot"]),
+    ("viewer", &["flatten", "cpu", "gpu", "layout", "film", "scene", "trace"]),
     ("selftest", &["kernel", "bvh", "layout", "film", "scene", "flatten", "cpu", "gpu"]),
 ];
 

@@ -24,6 +24,7 @@ Examples:
   snellius render scenes/ice.toml --aov depth=depth.exr --aov rays=rays.png
   snellius render scenes/ice.toml -o ice.png --json > ice.json
   snellius render scenes/whitted.toml -o whitted.png --error 0.002
+  snellius render scenes/ice.toml -o ice.png --turntable 36
   snellius render scenes/ice.toml -o plain.png --effects reflection,transmission,environment
 
 Ctrl-C stops the trace, writes what is finished (the rest is black) and exits with 130.
@@ -68,6 +69,10 @@ pub(in crate::cli) struct RenderArgs {
     #[arg(long, value_name = "MS", conflicts_with_all = ["depth", "cutoff"], help_heading = "Budget",
         value_parser = |text: &str| number_in(text, 1.0, 1e9))]
     pub(super) time: Option<f64>,
+    /// Write so many pictures instead of one, from round the target: OUT-000.png, OUT-001.png …, the first as without
+    #[arg(long, value_name = "N", requires = "output", conflicts_with_all = ["aov", "json", "error", "time"],
+        value_parser = |text: &str| whole_in(text, 1, 1000))]
+    pub(super) turntable: Option<u32>,
     /// Trace only this part of the picture: left, top, width and height in pixels
     #[arg(long, value_name = "X,Y,W,H")]
     pub(super) crop: Option<Crop>,

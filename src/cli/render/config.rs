@@ -31,6 +31,8 @@ pub(super) struct RenderConfig {
     /// What settings are to be chosen for.
     pub(super) goal: Option<Goal>,
     pub(super) crop: Option<Crop>,
+    /// How many pictures from round the target, if not one.
+    pub(super) turntable: Option<u32>,
     pub(super) png: PngOptions,
     pub(super) json: bool,
     pub(super) progress: ProgressStyle,
@@ -44,6 +46,12 @@ impl RenderConfig {
         let png = PngOptions { development, bits: args.bits };
         check_outputs(output.iter().chain(aovs.iter().map(|(_, output)| output)), args.json)?;
         check_png_options(output.as_ref(), png)?;
+        if args.turntable.is_some() && output == Some(Output::Stdout) {
+            return Err(CliError::usage(
+                "--turntable writes several pictures, and standard output holds one",
+            )
+            .hint("name a file: -o ice.png becomes ice-000.png, ice-001.png …"));
+        }
         let metric = args.metric.into();
         let goal = args.error.map(|limit| Goal::Error { limit, metric });
         let goal = goal.or_else(|| args.time.map(|ms| Goal::Time(Duration::from_secs_f64(ms / 1e3))));
@@ -63,6 +71,7 @@ impl RenderConfig {
             intersector: args.arithmetic.intersector,
             goal,
             crop: args.crop,
+            turntable: args.turntable,
             png,
             json: args.json,
             progress: args.progress,

@@ -5,6 +5,7 @@ mod config;
 mod export;
 mod goal;
 mod report;
+mod turntable;
 
 use std::time::{Duration, Instant};
 
@@ -48,6 +49,10 @@ pub(super) fn run(args: RenderArgs, console: Console) -> Result<Outcome, CliErro
         render = config::chosen(&render, &settings);
     }
     let simulated = Effects::of(flat, &settings).plan(&settings).effects;
+    if let Some(pictures) = config.turntable {
+        let how = (&render, settings, simulated);
+        return turntable::run(pictures, &config, &prepared, &mut device, how, console);
+    }
     let view = flatten::view(&scene.camera, flat, render.size, crop, &settings);
     let frame = {
         let progress = RenderProgress::start(config.progress, console);

@@ -84,10 +84,10 @@ fn a_picture_beyond_the_limit_is_traced_in_bands() {
         let mut renderer = subject.renderer(options);
         let whole = renderer.trace(&subject).unwrap();
         // Three rows of blocks fit, and most of a fourth.
-        let film = renderer.film.take().unwrap();
+        let film = renderer.films.pop().unwrap();
         renderer.context.adapter.max_storage_binding = film.buffer.size() - 20 * 30 * 64;
         let banded = renderer.trace(&subject).unwrap();
-        assert!(renderer.film.as_ref().unwrap().buffer.size() <= film.buffer.size() - 20 * 37 * 64);
+        assert!(renderer.films[0].buffer.size() <= film.buffer.size() - 20 * 37 * 64);
         assert_same(&banded, &whole);
     });
 }
@@ -98,7 +98,7 @@ fn a_stop_in_a_later_band_keeps_what_is_finished() {
     let subject = Subject::new("whitted.toml", [200, 64], 1);
     let mut renderer = subject.renderer(&options);
     let whole = renderer.trace(&subject).unwrap();
-    let film = renderer.film.take().unwrap();
+    let film = renderer.films.pop().unwrap();
     renderer.context.adapter.max_storage_binding = film.buffer.size() - 200 * 48 * 64;
     let stop =
         |done, total| if 2 * done > total { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };

@@ -113,7 +113,8 @@ fn doubled_flat(flat: FlatScene) -> Result<FlatScene, SceneError> {
     let copies = flat.triangles.iter().map(|triangle| Triangle { id: triangle.id + count, ..*triangle });
     let mut triangles: Vec<_> = flat.triangles.iter().copied().chain(copies).collect();
     shuffle(&mut triangles);
-    let tree = bvh::build(&triangles, bvh::Preset::default()).map_err(|e| Diagnostic::error(e.to_string()))?;
+    let tree =
+        bvh::build(&triangles, bvh::Preset::default()).map_err(|e| Diagnostic::error(e.to_string()))?;
     Ok(FlatScene {
         triangles: tree.order.iter().map(|&index| triangles[index as usize]).collect(),
         nodes: tree.nodes,

@@ -1,0 +1,231 @@
+//! Whole sessions.
+
+use std::fs;
+
+use super::*;
+
+/// Seconds that tests leave for the window to idle in.
+const IDLE_MS: u32 = 3000;
+
+/// A ball of glass over a floor: quick to read, and to trace.
+const BALL: &str = r##"
+[camera]
+eye = [0, 1, 4]
+target = [0, 0.5, 0]
+
+[render]
+samples = 2
+depth = 6
+
+[background]
+zenith = "#3060a0"
+horizon = "#e0e8f0"
+
+[[light]]
+position = [3, 5, 3]
+color = "#ffffff"
+
+[[model]]
+shape = { sphere = { radius = 0.5 } }
+translate = [0, 0.5, 0]
+material = "glass"
+
+[[model]]
+shape = { plane = { size = [6, 6] } }
+material = "floor"
+
+[material.glass]
+reflection = 0.1
+transmission = 0.9
+ior = 1.5
+
+[material.floor]
+diffuse = { color = "#a08060" }
+"##;
+
+#[test]
+fn the_window_shows_the_picture_that_render_writes() {
+    let Some(display) = Display::open() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let scene = scene("whitted.toml");
+    let flags = ["--size", "200x150", "--samples", "3", "--depth", "6"];
+    let rendered = run(Command::new(env!("CARGO_BIN_EXE_snellius"))
+        .current_dir(&folder)
+        .args(["render", scene.to_str().unwrap(), "-o", "render.png", "--backend", "cpu"])
+        .args(flags));
+    assert_eq!(rendered.code, Some(0), "{rendered:?}");
+    let picture = pixels(&folder.path().join("render.png"));
+    for backend in ["gpu", "cpu"] {
+        let file = format!("{backend}.png");
+        let mut words = vec!["view", scene.to_str().unwrap(), "--backend", backend];
+        words.extend(flags);
+        words.extend(["--screenshot", &file, "--frames", "3"]);
+        let shown = snellius(&display, folder.path(), &words);
+        assert_eq!(shown.code, Some(0), "{shown:?}");
+        assert_eq!(differing(&pixels(&folder.path().join(file)), &picture), 0, "{backend}");
+    }
+}
+
+#[test]
+fn without_a_display_the_way_out_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = run(Command::new(env!("CARGO_BIN_EXE_snellius"))
+        .current_dir(&folder)
+        .args(["view", scene("prism.toml").to_str().unwrap(), "--backend", "cpu"])
+        .env_remove("DISPLAY"));
+    assert_eq!(run.code, Some(3), "{run:?}");
+    assert!(
+        run.stderr.contains("no window can be opened") && run.stderr.contains("snellius render"),
+        "{run:?}"
+    );
+    assert!(!run.stderr.contains("panicked"), "{run:?}");
+}
+
+#[test]
+fn without_a_driver_the_way_out_is_told() {
+    let Some(display) = Display::open() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let run = run(Command::new(env!("CARGO_BIN_EXE_snellius"))
+        .current_dir(&folder)
+        .args([scene("prism.toml").to_str().unwrap()])
+        .env("DISPLAY", display.name())
+        .env("VK_DRIVER_FILES", "/nonexistent"));
+    assert_eq!(run.code, Some(3), "{run:?}");
+    assert!(run.stderr.contains("Vulkan driver"), "{run:?}");
+}
+
+#[test]
+fn a_hand_orbits_resizes_drops_breaks_and_repairs_and_all_is_answered() {
+    let Some(display) = Display::open() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    write("ball.toml", BALL);
+    write("good.toml", BALL);
+    write("broken.toml", &BALL.replace("ior = 1.5", "ior = 'heavy'"));
+    write("other.toml", &BALL.replace("radius = 0.5", "radius = 0.3"));
+    write(
+        "script.txt",
+        &format!(
+            "wait rest
+             screenshot first.png
+             orbit 150 40 12
+             wheel 3 3
+             pan -40 20 3
+             wait rest
+             screenshot orbited.png
+             key Home
+             wait rest
+             screenshot home.png
+             resize 480 270
+             wait rest
+             expect size 480 270
+             minimise
+             wait 200
+             restore
+             resize 320 180
+             wait rest
+             copy broken.toml ball.toml
+             expect toast ball.toml:
+             screenshot broken.png
+             copy good.toml ball.toml
+             expect toast read again
+             drop other.toml
+             expect toast opened
+             wait rest
+             screenshot other.png
+             drop ball.toml
+             wait 500
+             wait rest
+             backend cpu
+             wait rest
+             expect backend cpu
+             screenshot cpu.png
+             backend gpu
+             wait rest
+             view normal rays
+             wait rest
+             screenshot views.png
+             view beauty
+             wait rest
+             lose
+             expect toast opened again
+             wait rest
+             screenshot recovered.png
+             expect idle 1 {IDLE_MS}
+             quit"
+        ),
+    );
+    let words = ["view", "ball.toml", "--backend", "gpu", "--size", "320x180", "--script", "script.txt"];
+    let run = snellius(&display, folder.path(), &words);
+    assert_eq!(run.code, Some(0), "{run:?}");
+    let shot = |name: &str| {
+        // Without the panel, whose figures change.
+        let window = pixels(&folder.path().join(name));
+        image::imageops::crop_imm(&window, 0, 0, 320, 180).to_image()
+    };
+    let first = shot("first.png");
+    for same in ["home.png", "cpu.png", "recovered.png"] {
+        // A message covers the upper left corner.
+        let differing = first
+            .enumerate_pixels()
+            .filter(|(x, y, pixel)| *y > 150 && *x < 320 && shot(same).get_pixel(*x, *y) != *pixel)
+            .count();
+        assert_eq!(differing, 0, "{same}");
+    }
+    for other in ["orbited.png", "other.png", "views.png"] {
+        assert_ne!(shot(other), first, "{other}");
+    }
+    let timings: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
+    assert!(timings["answers"].as_u64().unwrap() >= 18, "{timings}");
+    assert!(timings["slowest_frame_ms"].as_f64().unwrap() < 1000.0, "{timings}");
+}
+
+#[test]
+fn keys_write_the_picture_and_the_scene_and_the_difference_is_black() {
+    let Some(display) = Display::open() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("ball.toml"), BALL).unwrap();
+    let script = "wait rest
+                  orbit 30 10 2
+                  wait rest
+                  key F12
+                  expect toast the picture is in ball-001.png
+                  key ctrl+S
+                  expect toast the scene with this camera is in ball-001.toml
+                  view difference
+                  wait rest
+                  screenshot difference.png";
+    fs::write(folder.path().join("script.txt"), script).unwrap();
+    let words = ["view", "ball.toml", "--backend", "gpu", "--size", "160x120", "--script", "script.txt"];
+    let run = snellius(&display, folder.path(), &words);
+    assert_eq!(run.code, Some(0), "{run:?}");
+    // The scene that was written shows the picture that was written, but for what f32 makes of seven digits.
+    let shown = snellius(
+        &display,
+        folder.path(),
+        &["render", "ball-001.toml", "--backend", "cpu", "--size", "160x120", "-o", "again.png"],
+    );
+    assert_eq!(shown.code, Some(0), "{shown:?}");
+    let (saved, again) =
+        (pixels(&folder.path().join("ball-001.png")), pixels(&folder.path().join("again.png")));
+    let far = saved.pixels().zip(again.pixels()).filter(|(a, b)| (0..3).any(|c| a[c].abs_diff(b[c]) > 2));
+    assert!(far.count() < 200, "the camera was not kept");
+    let difference = pixels(&folder.path().join("difference.png"));
+    let seen = (0..160).filter(|&x| difference.get_pixel(x, 60) != &image::Rgb([0, 0, 0])).count();
+    assert_eq!(seen, 0, "lavapipe's bits are the CPU's");
+}
+
+#[test]
+fn a_script_that_is_not_met_fails_with_its_line() {
+    let Some(display) = Display::open() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("ball.toml"), BALL).unwrap();
+    fs::write(folder.path().join("script.txt"), "wait rest\nexpect size 10 10\n").unwrap();
+    let words = ["view", "ball.toml", "--backend", "cpu", "--size", "64x48", "--script", "script.txt"];
+    let run = snellius(&display, folder.path(), &words);
+    assert_eq!(run.code, Some(1), "{run:?}");
+    assert!(run.stderr.contains("script.txt:2: the picture has [64, 48] pixels"), "{run:?}");
+    fs::write(folder.path().join("script.txt"), "wait rest\nexpect much\n").unwrap();
+    let run = snellius(&display, folder.path(), &words);
+    assert!(run.code == Some(2) && run.stderr.contains("script.txt:2: `expect much` is no event"), "{run:?}");
+}
