@@ -138,7 +138,7 @@ mod tests {
         std::fs::write(&path, text).unwrap();
         let stage = Stage::load(&path).map_err(|error| error.to_string()).unwrap();
         let (sender, receiver) = channel();
-        let _watch = Watch::new(&stage, move || drop(sender.send(()))).unwrap();
+        let _watch = Watch::new(&stage, move || _ = sender.send(())).unwrap();
         std::fs::write(folder.path().join("picture.png"), "x").unwrap();
         assert!(receiver.recv_timeout(Duration::from_millis(200)).is_err());
         std::fs::write(&path, text).unwrap();
