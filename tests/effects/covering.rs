@@ -28,6 +28,13 @@ pub(crate) fn covering(base: EffectSet) -> Vec<EffectSet> {
     sets
 }
 
+/// Two closed sets that hold `base`, of which each other effect is in one, and but for what the others need not in both.
+pub(crate) fn halves(base: EffectSet) -> Vec<EffectSet> {
+    let free: Vec<_> = CHOICES.minus(base.closed()).iter().collect();
+    let half = |part: usize| base.with_all(free.iter().copied().skip(part).step_by(2).collect());
+    vec![half(0), half(1)]
+}
+
 /// A closed set that holds `base` and meets a combination.
 fn random_set(base: EffectSet, (on, off): Combination, random: &mut Random) -> EffectSet {
     CHOICES.iter().fold(base.with_all(on), |set, effect| {
@@ -108,4 +115,14 @@ fn any_two_effects_meet_in_every_combination() {
     assert!(sets.len() <= 12, "{}", sets.len());
     let all = all_closed(base);
     assert!(sets.iter().all(|set| all.contains(set)) && all.len() > 1000, "{}", all.len());
+}
+
+#[test]
+fn each_effect_is_in_one_half_and_only_what_others_need_in_both() {
+    let base = EffectSet::of(&[Effect::Shadows, Effect::Reflection]);
+    let [a, b] = halves(base)[..] else { panic!("not two") };
+    assert_eq!(a.with_all(b), CHOICES);
+    let both = a.minus(a.minus(b));
+    let needed = EffectSet::of(&[Effect::Transmission, Effect::SmoothNormals]);
+    assert!(base.with_all(needed).has_all(both) && both != CHOICES, "{a:?} and {b:?}");
 }
