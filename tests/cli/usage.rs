@@ -18,6 +18,18 @@ fn every_command_explains_itself_with_examples() {
     }
 }
 
+#[cfg(feature = "viewer")]
+#[test]
+fn a_bare_scene_is_opened_with_the_flags_of_view() {
+    let folder = folder();
+    std::fs::write(folder.path().join("ice.toml"), "").expect("a file");
+    let run = snellius(folder.path(), "ice.toml --depth 65");
+    assert!(run.code == 2 && run.stderr.contains("from 0 to 64"), "{}", run.stderr);
+    let run = snellius(folder.path(), "ice.toml --depth 6");
+    assert!(run.code == 2 && run.stderr.contains("the scene has no models"), "{}", run.stderr);
+}
+
+#[cfg(not(feature = "viewer"))]
 #[test]
 fn a_bare_scene_says_how_to_render() {
     let folder = folder();

@@ -196,22 +196,23 @@ fn keys_write_the_picture_and_the_scene_and_the_difference_is_black() {
                   wait rest
                   screenshot difference.png";
     fs::write(folder.path().join("script.txt"), script).unwrap();
-    let words = ["view", "ball.toml", "--backend", "gpu", "--size", "160x120", "--script", "script.txt"];
+    let words = ["view", "ball.toml", "--backend", "gpu", "--size", "320x240", "--script", "script.txt"];
     let run = snellius(&display, folder.path(), &words);
     assert_eq!(run.code, Some(0), "{run:?}");
     // The scene that was written shows the picture that was written, but for what f32 makes of seven digits.
     let shown = snellius(
         &display,
         folder.path(),
-        &["render", "ball-001.toml", "--backend", "cpu", "--size", "160x120", "-o", "again.png"],
+        &["render", "ball-001.toml", "--backend", "cpu", "--size", "320x240", "-o", "again.png"],
     );
     assert_eq!(shown.code, Some(0), "{shown:?}");
     let (saved, again) =
         (pixels(&folder.path().join("ball-001.png")), pixels(&folder.path().join("again.png")));
     let far = saved.pixels().zip(again.pixels()).filter(|(a, b)| (0..3).any(|c| a[c].abs_diff(b[c]) > 2));
-    assert!(far.count() < 200, "the camera was not kept");
+    assert!(far.count() < 800, "the camera was not kept");
+    // Between the messages above and the legend below.
     let difference = pixels(&folder.path().join("difference.png"));
-    let seen = (0..160).filter(|&x| difference.get_pixel(x, 60) != &image::Rgb([0, 0, 0])).count();
+    let seen = (0..320).filter(|&x| difference.get_pixel(x, 150) != &image::Rgb([0, 0, 0])).count();
     assert_eq!(seen, 0, "lavapipe's bits are the CPU's");
 }
 
