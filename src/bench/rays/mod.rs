@@ -1,6 +1,6 @@
 //! Raw traversal: rays against a mesh, without shading.
 //!
-//! [`RayStage`] is a mesh with its trees, [`RaySets`] the rays that a picture of it would trace, [`measure`] times them
+//! [`RayStage`] is a mesh with its trees, [`RaySets`] the rays that a picture of it would trace, [`measure()`] times them
 //! after holding every answer against the scalar kernel. Rays and answers can be written and read ([`read_rays`]), so that
 //! any other engine can run the very same ones.
 

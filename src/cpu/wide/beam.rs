@@ -24,10 +24,10 @@ impl<'a, const N: usize, F: Copy> Beam<'a, N, F> {
         let falls = |axis: usize| class >> axis & 1 == 1;
         let ends = |values: &[f32; N]| {
             let (mut least, mut greatest) = (f32::INFINITY, f32::NEG_INFINITY);
-            for lane in 0..N {
+            for (lane, &value) in values.iter().enumerate() {
                 if lanes >> lane & 1 == 1 {
-                    least = least.min(values[lane]);
-                    greatest = greatest.max(values[lane]);
+                    least = least.min(value);
+                    greatest = greatest.max(value);
                 }
             }
             (least, greatest)

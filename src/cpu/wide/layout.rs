@@ -131,9 +131,7 @@ impl Leaf {
         let mut leaf = Self { corners: [[[0.0; WIDTH]; 3]; 3], ids: [0; WIDTH] };
         for (lane, triangle) in triangles.iter().enumerate() {
             for (corner, v) in [triangle.v0, triangle.v1, triangle.v2].into_iter().enumerate() {
-                for axis in 0..3 {
-                    leaf.corners[corner][axis][lane] = v[axis];
-                }
+                leaf.corners[corner].iter_mut().zip(v).for_each(|(row, x)| row[lane] = x);
             }
             leaf.ids[lane] = triangle.id;
         }

@@ -56,10 +56,8 @@ impl<const N: usize> Packet<N> {
             usable: 0,
         };
         for (lane, cast) in casts.iter().enumerate().take(N) {
-            for axis in 0..3 {
-                packet.origin[axis][lane] = cast.origin[axis];
-                direction[axis][lane] = cast.direction[axis];
-            }
+            packet.origin.iter_mut().zip(cast.origin).for_each(|(row, x)| row[lane] = x);
+            direction.iter_mut().zip(cast.direction).for_each(|(row, x)| row[lane] = x);
             packet.limit[lane] = cast.limit;
             packet.origin_face[lane] = cast.origin_face;
         }

@@ -145,9 +145,9 @@ fn bits_of(mut bits: u32) -> impl Iterator<Item = usize> {
 #[inline(always)]
 fn greatest_of<const N: usize>(values: &[f32; N], lanes: u32) -> f32 {
     let mut greatest = f32::NEG_INFINITY;
-    for lane in 0..N {
-        if lanes >> lane & 1 == 1 && values[lane] > greatest {
-            greatest = values[lane];
+    for (lane, &value) in values.iter().enumerate() {
+        if lanes >> lane & 1 == 1 && value > greatest {
+            greatest = value;
         }
     }
     greatest
