@@ -44,7 +44,7 @@ pub(super) struct BenchArgs {
     #[command(flatten)]
     rays: rays::RayArgs,
     /// Width and height of the pictures in pixels
-    #[arg(long, value_name = "WxH", default_value = "320x240")]
+    #[arg(long, value_name = "WxH", default_value = "320x240", conflicts_with = "mesh")]
     size: Size,
     /// Rounds in which all sides are traced, 6 to 1000
     #[arg(long, value_name = "N", default_value = "11", value_parser = |text: &str| whole_in(text, Ratio::LEAST_ROUNDS as u32, 1000))]
@@ -53,10 +53,10 @@ pub(super) struct BenchArgs {
     #[arg(long)]
     json: bool,
     /// Only the CPU, or only Vulkan adapters
-    #[arg(long, value_name = "DEVICE", help_heading = "Device")]
+    #[arg(long, value_name = "DEVICE", help_heading = "Device", conflicts_with = "mesh")]
     backend: Option<Backend>,
     /// Only adapters of which this is part of the name, as `snellius devices` lists them
-    #[arg(long, value_name = "NAME", help_heading = "Device")]
+    #[arg(long, value_name = "NAME", help_heading = "Device", conflicts_with = "mesh")]
     adapter: Option<String>,
 }
 
