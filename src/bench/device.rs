@@ -1,5 +1,6 @@
 //! What a scene is measured on.
 
+use super::rays::RayError;
 use crate::cpu::{CpuError, CpuRenderer};
 use crate::film::{Frame, Progress, Renderer};
 use crate::gpu::{AdapterReport, GpuError, GpuOptions, GpuRenderer};
@@ -18,6 +19,9 @@ pub enum BenchError {
     /// The adapter cannot trace.
     #[error(transparent)]
     Gpu(#[from] GpuError),
+    /// A mesh or a file of rays is not usable.
+    #[error(transparent)]
+    Rays(#[from] RayError),
 }
 
 /// A device to measure.

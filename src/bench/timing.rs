@@ -17,14 +17,28 @@ pub fn interleave<E, const N: usize>(
     rounds: usize,
     sides: &mut [&mut dyn FnMut() -> Result<Duration, E>; N],
 ) -> Result<[Vec<Duration>; N], E> {
-    let mut times = [const { Vec::new() }; N];
-    for side in sides.iter_mut() {
-        side()?;
+    let times = take_turns(rounds, N, |side| sides[side]())?;
+    let mut times = times.into_iter();
+    Ok(std::array::from_fn(|_| times.next().unwrap_or_default()))
+}
+
+/// [`interleave`] of any number of sides: runs them by their number.
+///
+/// # Errors
+/// The first of a side.
+pub fn take_turns<E>(
+    rounds: usize,
+    sides: usize,
+    mut run: impl FnMut(usize) -> Result<Duration, E>,
+) -> Result<Vec<Vec<Duration>>, E> {
+    let mut times = vec![Vec::new(); sides];
+    for side in 0..sides {
+        run(side)?;
     }
     for round in 0..rounds {
-        for step in 0..N {
-            let index = if round % 2 == 0 { step } else { N - 1 - step };
-            times[index].push(sides[index]()?);
+        for step in 0..sides {
+            let side = if round % 2 == 0 { step } else { sides - 1 - step };
+            times[side].push(run(side)?);
         }
     }
     Ok(times)

@@ -5,6 +5,7 @@ use std::io;
 use thiserror::Error;
 
 use crate::bench::BenchError;
+use crate::bench::rays::RayError;
 use crate::cpu::CpuError;
 use crate::film::{DifferenceError, EncodeError, LoadError, OutputError};
 use crate::gpu::GpuError;
@@ -70,6 +71,8 @@ pub(super) enum CliError {
     #[error(transparent)]
     Gpu(#[from] GpuError),
     #[error(transparent)]
+    Rays(#[from] RayError),
+    #[error(transparent)]
     Study(StudyError),
     #[cfg(feature = "viewer")]
     #[error(transparent)]
@@ -84,6 +87,7 @@ impl From<BenchError> for CliError {
             BenchError::Cpu(error) => Self::Cpu(error),
             BenchError::Gpu(error) => Self::Gpu(error),
             BenchError::Scene(error) => Self::Scene(error),
+            BenchError::Rays(error) => Self::Rays(error),
         }
     }
 }
@@ -146,6 +150,7 @@ impl CliError {
             | Self::Encode(_)
             | Self::Load(_)
             | Self::Difference(_)
+            | Self::Rays(_)
             | Self::Study(_)
             | Self::Json(_) => 2,
         }

@@ -123,6 +123,25 @@ impl fmt::Display for Size {
     }
 }
 
+/// `X,Y,Z` in scene units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Point(pub(super) [f64; 3]);
+
+impl FromStr for Point {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers: Option<Vec<f64>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
+        match numbers.as_deref() {
+            Some(&[x, y, z]) if [x, y, z].iter().all(|x| x.abs() <= MAX_COORDINATE) => Ok(Self([x, y, z])),
+            _ => Err("expected X,Y,Z within ±2^60, as in 0,1.5,4".to_owned()),
+        }
+    }
+}
+
+/// 2^60: as far as scenes reach.
+const MAX_COORDINATE: f64 = (1_u64 << 60) as f64;
+
 /// `X,Y,W,H` in pixels, from the top left.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Crop(pub(super) [u32; 4]);

@@ -1,10 +1,13 @@
 //! The CPU renderer: rayon over tiles, around [`kernel::whitted`](crate::kernel::whitted).
 
 mod adaptive;
+mod order;
+mod through;
+mod wide;
 
 use std::ops::ControlFlow;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
@@ -12,7 +15,13 @@ use rayon::prelude::*;
 use crate::film::{Frame, Progress, RayCounts, Renderer, SampleCounts, TraceTimes};
 use crate::kernel::whitted::{Branch, trace_pixel};
 use crate::kernel::{Real, Simulation, Within, World};
-use crate::layout::{Aov, Effect, EffectSet, FlatScene, Float, Precision, Scan, Settings, Texel, View};
+use crate::layout::{
+    Aov, Effect, EffectSet, FlatScene, Float, Intersector, Precision, Scan, Settings, Texel, View,
+};
+
+pub use order::morton_order;
+use through::Through;
+pub use wide::{Cast, WideBvh};
 
 /// Side of a tile in pixels, if none is asked for: small enough to balance the end of a frame, large enough to amortise
 /// its bookkeeping.
@@ -37,6 +46,17 @@ pub struct CpuError {
     source: rayon::ThreadPoolBuildError,
 }
 
+/// So many threads; 0 for one a core (or `RAYON_NUM_THREADS`).
+///
+/// # Errors
+/// If the operating system gives no threads.
+pub fn thread_pool(threads: usize) -> Result<rayon::ThreadPool, CpuError> {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|source| CpuError { threads, source })
+}
+
 /// Traces a scene on the CPU. The picture does not depend on the number of threads.
 pub struct CpuRenderer<'a> {
     scene: &'a FlatScene,
@@ -44,6 +64,8 @@ pub struct CpuRenderer<'a> {
     scan: Scan,
     pool: rayon::ThreadPool,
     tile: u32,
+    /// The scene's tree for rays in f32, from the first of them on.
+    wide: OnceLock<WideBvh>,
 }
 
 impl<'a> CpuRenderer<'a> {
@@ -60,11 +82,17 @@ impl<'a> CpuRenderer<'a> {
     /// # Errors
     /// As [`new`](Self::new).
     pub fn with_tile(scene: &'a FlatScene, threads: usize, tile: u32) -> Result<Self, CpuError> {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .map_err(|source| CpuError { threads, source })?;
-        Ok(Self { scene, scan: Scan::of(scene), pool, tile: tile.max(1) })
+        Ok(Self {
+            scene,
+            scan: Scan::of(scene),
+            pool: thread_pool(threads)?,
+            tile: tile.max(1),
+            wide: OnceLock::new(),
+        })
+    }
+
+    fn wide(&self) -> &WideBvh {
+        self.wide.get_or_init(|| WideBvh::new(&self.scene.nodes, &self.scene.triangles))
     }
 
     /// How many threads trace.
@@ -87,13 +115,20 @@ impl Renderer for CpuRenderer<'_> {
         let view = &plan.applied_to(view);
         let effects = plan.effects;
         let world = World { scene: self.scene, view, intersector: settings.intersector, effects };
-        Ok(self.pool.install(|| match settings.precision {
-            Precision::F32 if PAINT.has_all(effects) => {
-                let world = world.simulating(Within::<{ PAINT.bits() }>(effects));
+        Ok(self.pool.install(|| match (settings.precision, settings.intersector) {
+            (Precision::F32, Intersector::Watertight) if PAINT.has_all(effects) => {
+                let effects = Within::<{ PAINT.bits() }>(effects);
+                let world = world.simulating(Through { effects, tree: self.wide() });
                 render::<f32>(&world, settings, self.tile, progress)
             }
-            Precision::F32 => render::<f32>(&world, settings, self.tile, progress),
-            Precision::F64 => render::<f64>(&world, settings, self.tile, progress),
+            (Precision::F32, Intersector::Watertight) => {
+                let world = world.simulating(Through { effects, tree: self.wide() });
+                render::<f32>(&world, settings, self.tile, progress)
+            }
+            (Precision::F32, Intersector::MollerTrumbore) => {
+                render::<f32>(&world, settings, self.tile, progress)
+            }
+            (Precision::F64, _) => render::<f64>(&world, settings, self.tile, progress),
         }))
     }
 }
@@ -140,26 +175,26 @@ fn render_uniform<R: Real>(
         complete: true,
     });
     let started = Instant::now();
-    let columns = width.div_ceil(side);
-    let tiles = columns * height.div_ceil(side);
+    let tiles = morton_order(width.div_ceil(side), height.div_ceil(side));
     let done = AtomicU64::new(0);
     let stop = AtomicBool::new(false);
-    (0..tiles).into_par_iter().for_each_init(Vec::new, |stack, index| {
+    // One by one, so that none waits behind another at the end of the frame.
+    tiles.par_iter().with_max_len(1).for_each_init(Vec::new, |stack, &place| {
         if stop.load(Ordering::Relaxed) {
             return;
         }
-        let tile = trace_tile::<R>(world, stack, side, [index % columns, index / columns]);
+        let tile = trace_tile::<R>(world, stack, side, place);
         // Nothing panics while the lock is held.
         let mut frame = frame.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         paste(&mut frame, &tile);
         drop(frame);
         let finished = done.fetch_add(1, Ordering::Relaxed) + 1;
-        if progress.advance(finished, u64::from(tiles)) == ControlFlow::Break(()) {
+        if progress.advance(finished, tiles.len() as u64) == ControlFlow::Break(()) {
             stop.store(true, Ordering::Relaxed);
         }
     });
     let mut frame = frame.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-    frame.complete = done.into_inner() == u64::from(tiles);
+    frame.complete = done.into_inner() == tiles.len() as u64;
     frame.times =
         TraceTimes { trace: started.elapsed().max(Duration::from_nanos(1)), ..TraceTimes::default() };
     frame

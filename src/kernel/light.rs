@@ -3,7 +3,7 @@
 use crate::layout::Effect;
 use crate::layout::constants::{MAX_PASSES, NONE};
 
-use super::bvh::{intersect, make_ray, occluded};
+use super::bvh::make_ray;
 use super::material::{is_transmissive, shadow_transmission};
 use super::math::{dot3, length3, max3};
 use super::media::{attenuation, cross_face, current_medium};
@@ -110,7 +110,8 @@ pub fn transmittance<R: Real>(
 ) -> Vec3<R> {
     // Where every body is opaque one blocker decides, whichever it is.
     if world.view.transmissive_bodies == 0 || !world.simulates(Effect::TintedShadows) {
-        let blocked = occluded(world, &make_ray(world, origin, l, origin_face), distance);
+        let ray = make_ray(world, origin, l, origin_face);
+        let blocked = world.effects.occluded(world, &ray, distance);
         return if blocked { Vec3::zero() } else { Vec3::one() };
     }
     let mut result = Vec3::one();
@@ -120,7 +121,7 @@ pub fn transmittance<R: Real>(
     let mut left = distance;
     for _ in 0..MAX_PASSES {
         let ray = make_ray(world, start, l, face);
-        let hit = intersect(world, &ray, left);
+        let hit = world.effects.intersect(world, &ray, left);
         let medium = current_medium(world, mask);
         if hit.id == NONE {
             return result * attenuation(world, medium, left);

@@ -8,7 +8,7 @@ use crate::layout::{Aov, Effect, Statistics, Texel};
 
 use super::adaptive::tally;
 use super::background::background;
-use super::bvh::{far, intersect, make_ray};
+use super::bvh::{far, make_ray};
 use super::camera::primary_ray;
 use super::film::{self, Sample};
 use super::hash::{mix_hash, sample_offset};
@@ -198,7 +198,7 @@ pub fn find_surface<R: Real>(world: &World<impl Simulation>, branch: &Branch<R>)
     };
     for _ in 0..MAX_PASSES {
         let ray = make_ray(world, origin, branch.direction, origin_face);
-        let hit = intersect(world, &ray, far());
+        let hit = world.effects.intersect(world, &ray, far());
         if hit.id == NONE {
             return landing;
         }

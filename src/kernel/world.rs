@@ -1,10 +1,12 @@
 //! What the shaders have as bindings and features: the flattened scene, the view and how to trace it.
 
+use super::bvh::{self, Hit, Ray};
+use super::real::Real;
 use crate::layout::{Effect, EffectSet, FlatScene, Intersector, TreeNode, View};
 
 /// Which effects a kernel simulates: known as it is compiled, or asked as it runs.
 ///
-/// The kernel asks last, behind every condition of the scene under which an effect shows: in the shaders that is
+/// It may also know a faster way through the scene. The kernel asks last, behind every condition of the scene under which an effect shows: in the shaders that is
 /// `@if(effect)` around the same conditions. So an implementation that notes what it is asked for knows which effects
 /// a picture has really used.
 pub trait Simulation: Copy + Sync {
@@ -18,6 +20,16 @@ pub trait Simulation: Copy + Sync {
 
     /// Hears of a ray, in the order of tracing.
     fn record(self, _node: TreeNode) {}
+
+    /// [`bvh::intersect`], or a faster way to the same bits.
+    fn intersect<R: Real>(self, world: &World<Self>, ray: &Ray<R>, limit: R) -> Hit<R> {
+        bvh::intersect(world, ray, limit)
+    }
+
+    /// [`bvh::occluded`], or a faster way to the same answer.
+    fn occluded<R: Real>(self, world: &World<Self>, ray: &Ray<R>, limit: R) -> bool {
+        bvh::occluded(world, ray, limit)
+    }
 }
 
 impl Simulation for EffectSet {

@@ -1,5 +1,6 @@
 //! The program as a person runs it: output, exit codes, files.
 
+mod bench;
 mod broken;
 mod diff;
 mod render;

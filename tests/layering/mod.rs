@@ -14,7 +14,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("film", &["layout"]),
     ("cpu", &["kernel", "layout", "film"]),
     ("gpu", &["layout", "film"]),
-    ("bench", &["flatten", "cpu", "gpu", "film", "layout", "scene"]),
+    ("bench", &["kernel", "bvh", "flatten", "cpu", "gpu", "film", "layout", "scene"]),
     ("plot", &[]),
     ("study", &["flatten", "cpu", "gpu", "film", "layout", "scene", "plot"]),
     ("trace", &["kernel", "gpu", "flatten", "film", "layout", "scene", "plot"]),

@@ -1,6 +1,7 @@
 //! `snellius bench`: measured comparisons, each row with its proof.
 
 mod markdown;
+mod rays;
 mod report;
 
 use std::path::{Path, PathBuf};
@@ -20,38 +21,49 @@ use report::{Machine, Report};
 /// alone in a scene that does not need it. Both sides run in turn after a warm-up. A row is printed only where both
 /// sides traced the same picture, bit for bit. Time is that of the trace alone; MESA_SHADER_CACHE_DISABLE=true in the
 /// environment makes compile times of Mesa's drivers those of a first run.
+///
+/// With --rays: rays against one mesh, without shading, on the CPU: primary ones (P), mirrored (R) and scattered (D) off
+/// what those hit, and shadow rays (S). A rate is printed only where every hit has the bits of the scalar kernel's.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   snellius bench --effects
   snellius bench --effects scenes/opaque.toml --adapter llvmpipe --rounds 25
   snellius bench --effects --backend cpu --json > effects.json
+  snellius bench --rays bunny.obj --eye 0,1,3 --target 0,0.5,0 --fov 40 --dump rays
+  snellius bench --rays bunny.obj --ray-file rays/bunny.S.rays --any --json
 
-Exit code: 0, or 1 if two sides traced different pictures.")]
+Exit code: 0, or 1 if two sides traced different pictures or hits.")]
 pub(super) struct BenchArgs {
     /// Scenes [default: all of the folder scenes]
+    #[arg(conflicts_with = "mesh")]
     scenes: Vec<PathBuf>,
     /// Compare the effects that scenes call for with all effects, and with each other one alone
-    #[arg(long, required = true)]
+    #[arg(long, required_unless_present = "mesh", conflicts_with = "mesh")]
     effects: bool,
+    #[command(flatten)]
+    rays: rays::RayArgs,
     /// Width and height of the pictures in pixels
-    #[arg(long, value_name = "WxH", default_value = "320x240")]
+    #[arg(long, value_name = "WxH", default_value = "320x240", conflicts_with = "mesh")]
     size: Size,
-    /// Rounds in which both sides are traced, 6 to 1000
+    /// Rounds in which all sides are traced, 6 to 1000
     #[arg(long, value_name = "N", default_value = "11", value_parser = |text: &str| whole_in(text, Ratio::LEAST_ROUNDS as u32, 1000))]
     rounds: u32,
     /// Print one JSON object
     #[arg(long)]
     json: bool,
     /// Only the CPU, or only Vulkan adapters
-    #[arg(long, value_name = "DEVICE", help_heading = "Device")]
+    #[arg(long, value_name = "DEVICE", help_heading = "Device", conflicts_with = "mesh")]
     backend: Option<Backend>,
     /// Only adapters of which this is part of the name, as `snellius devices` lists them
-    #[arg(long, value_name = "NAME", help_heading = "Device")]
+    #[arg(long, value_name = "NAME", help_heading = "Device", conflicts_with = "mesh")]
     adapter: Option<String>,
 }
 
 pub(super) fn run(args: &BenchArgs, console: Console) -> Result<Outcome, CliError> {
+    if let Some(mesh) = &args.rays.mesh {
+        return rays::run(mesh, args, console);
+    }
     let scenes = if args.scenes.is_empty() { all_scenes()? } else { args.scenes.clone() };
     let targets = targets(args)?;
     let mut bench =

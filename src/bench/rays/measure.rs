@@ -1,0 +1,253 @@
+//! How fast a set of rays is traced, once every answer is right.
+
+use std::time::{Duration, Instant};
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+use super::{RayAnswer, RayRecord, RayStage};
+use crate::bench::{BenchError, median, take_turns};
+use crate::cpu::{Cast, thread_pool};
+use crate::kernel::bvh::{Hit, intersect, make_ray, occluded};
+use crate::kernel::{Real, Vec3};
+use crate::layout::constants::NONE;
+
+/// Rays that a thread takes at a time.
+const CHUNK: usize = 4096;
+
+/// Rays that are handed to the stream kernel at a time.
+const STREAM: usize = 64;
+
+/// What is asked of a ray.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Query {
+    /// Where it first hits.
+    Nearest,
+    /// Whether it hits.
+    Any,
+}
+
+/// How rays are handed to the kernel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Mode {
+    /// One by one.
+    Single,
+    /// As a stream, of which neighbours go together as long as they go the same way.
+    Coherent,
+}
+
+/// One set on one device. Every answer had the bits of the scalar kernel's.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RayRun {
+    /// P, R, D, S, or the file that the rays came from.
+    pub set: String,
+    /// `cpu`.
+    pub device: &'static str,
+    /// Threads.
+    pub threads: usize,
+    /// How rays are handed over.
+    pub mode: Mode,
+    /// Millions of rays a second: the median.
+    pub mrays_per_s: f64,
+    /// Rays that hit something.
+    pub hits: usize,
+}
+
+/// A set's rates, and its answers.
+#[derive(Debug)]
+pub struct Measured {
+    /// By mode, then threads.
+    pub runs: Vec<RayRun>,
+    /// What the scalar kernel says.
+    pub answers: Vec<RayAnswer>,
+    /// What is wrong where a side's answers were others: it has no run.
+    pub faults: Vec<String>,
+}
+
+/// Time a set of rays, with one thread and with all, single and coherent, in turn; each side after its answers were held
+/// against the scalar kernel's.
+///
+/// # Errors
+/// [`BenchError::Cpu`].
+pub fn measure(
+    stage: &RayStage,
+    set: &str,
+    rays: &[RayRecord],
+    query: Query,
+    rounds: usize,
+) -> Result<Measured, BenchError> {
+    let answers = judge(stage, rays, query);
+    let pools = [thread_pool(1)?, thread_pool(0)?];
+    let mut sides = Vec::new();
+    let mut faults = Vec::new();
+    for mode in [Mode::Single, Mode::Coherent] {
+        for pool in &pools[..if pools[1].current_num_threads() == 1 { 1 } else { 2 }] {
+            let mut side = Side { stage, rays, query, mode, pool, found: vec![RayAnswer::MISS; rays.len()] };
+            side.trace();
+            match differing(&side.found, &answers) {
+                None => sides.push(side),
+                Some(ray) => faults.push(format!(
+                    "{set}, {mode:?}, {} threads: ray {ray} is {:?}, by the scalar kernel {:?}",
+                    pool.current_num_threads(),
+                    side.found[ray],
+                    answers[ray]
+                )),
+            }
+        }
+    }
+    let times = take_turns(rounds, sides.len(), |side| Ok::<_, BenchError>(sides[side].trace()))?;
+    let hits = answers.iter().filter(|answer| answer.is_hit()).count();
+    let run = |(side, times): (&Side<'_>, &Vec<Duration>)| RayRun {
+        set: set.to_owned(),
+        device: "cpu",
+        threads: side.pool.current_num_threads(),
+        mode: side.mode,
+        mrays_per_s: rays.len() as f64 / median(times).as_secs_f64().max(f64::MIN_POSITIVE) / 1e6,
+        hits,
+    };
+    Ok(Measured { runs: sides.iter().zip(&times).map(run).collect(), answers, faults })
+}
+
+/// The scalar kernel's answers.
+fn judge(stage: &RayStage, rays: &[RayRecord], query: Query) -> Vec<RayAnswer> {
+    let world = stage.world();
+    let answer = |ray: &RayRecord| {
+        let made = make_ray(&world, Vec3::load(ray.origin), Vec3::load(ray.direction), NONE);
+        match query {
+            Query::Nearest => nearest(&intersect(&world, &made, ray.tmax)),
+            Query::Any => any(occluded(&world, &made, ray.tmax)),
+        }
+    };
+    rays.par_iter().map(answer).collect()
+}
+
+fn nearest<R: Real>(hit: &Hit<R>) -> RayAnswer {
+    if hit.id == NONE { RayAnswer::MISS } else { RayAnswer { t: hit.t.to_f32(), face: hit.id } }
+}
+
+fn any(hit: bool) -> RayAnswer {
+    if hit { RayAnswer { t: 0.0, face: 0 } } else { RayAnswer::MISS }
+}
+
+/// The first ray whose answers differ in a bit.
+fn differing(found: &[RayAnswer], expected: &[RayAnswer]) -> Option<usize> {
+    let bits = |answer: &RayAnswer| (answer.t.to_bits(), answer.face);
+    found.iter().zip(expected).position(|(a, b)| bits(a) != bits(b))
+}
+
+/// One way to trace a set.
+struct Side<'a> {
+    stage: &'a RayStage,
+    rays: &'a [RayRecord],
+    query: Query,
+    mode: Mode,
+    pool: &'a rayon::ThreadPool,
+    found: Vec<RayAnswer>,
+}
+
+impl Side<'_> {
+    fn trace(&mut self) -> Duration {
+        let Self { stage, rays, query, mode, pool, found } = self;
+        let chunks = || {
+            let pairs = rays.par_chunks(CHUNK).zip(found.par_chunks_mut(CHUNK));
+            pairs.for_each(|(rays, found)| match mode {
+                Mode::Single => one_by_one(stage, rays, *query, found),
+                Mode::Coherent => as_stream(stage, rays, *query, found),
+            });
+        };
+        let started = Instant::now();
+        pool.install(chunks);
+        started.elapsed()
+    }
+}
+
+fn one_by_one(stage: &RayStage, rays: &[RayRecord], query: Query, found: &mut [RayAnswer]) {
+    let world = stage.world();
+    for (ray, found) in rays.iter().zip(found) {
+        let made = make_ray(&world, Vec3::load(ray.origin), Vec3::load(ray.direction), NONE);
+        *found = match query {
+            Query::Nearest => nearest(&stage.wide.intersect(&made, ray.tmax)),
+            Query::Any => any(stage.wide.occluded(&made, ray.tmax)),
+        };
+    }
+}
+
+fn as_stream(stage: &RayStage, rays: &[RayRecord], query: Query, found: &mut [RayAnswer]) {
+    let mut casts = [Cast { origin: [0.0; 3], limit: 0.0, direction: [0.0; 3], origin_face: NONE }; STREAM];
+    let mut hits = [Hit { t: 0.0, id: NONE, index: NONE, b1: 0.0, b2: 0.0, front: false }; STREAM];
+    let mut blocked = [false; STREAM];
+    for (rays, found) in rays.chunks(STREAM).zip(found.chunks_mut(STREAM)) {
+        let casts = &mut casts[..rays.len()];
+        casts.iter_mut().zip(rays).for_each(|(cast, ray)| *cast = ray.into());
+        match query {
+            Query::Nearest => {
+                stage.wide.intersect_stream(casts, &mut hits[..rays.len()]);
+                found.iter_mut().zip(&hits).for_each(|(found, hit)| *found = nearest(hit));
+            }
+            Query::Any => {
+                stage.wide.occluded_stream(casts, &mut blocked[..rays.len()]);
+                found.iter_mut().zip(&blocked).for_each(|(found, &blocked)| *found = any(blocked));
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::bench::rays::{Pinhole, RaySets};
+    use crate::bvh::Preset;
+
+    /// A roof over a floor, as a mesh.
+    fn stage() -> RayStage {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("roof.obj");
+        let roof = "v -4 0 -4\nv 4 0 -4\nv 4 0 4\nv -4 0 4\nv 0 3 -1\nv -2 1 1\nv 2 1 1\nf 1 3 2\nf 1 4 3\nf 5 6 7\n";
+        std::fs::write(&path, roof).unwrap();
+        let pinhole = Pinhole { eye: Some([0.5, 4.0, 7.0]), target: Some([0.0, 0.5, 0.0]), fov: Some(60.0) };
+        RayStage::load(&path, Preset::Best, pinhole).unwrap()
+    }
+
+    #[test]
+    fn every_set_is_traced_in_every_way_with_the_same_hits() {
+        let stage = stage();
+        let sets = RaySets::of(&stage, 32);
+        let hits = sets.primary.len() - 1;
+        assert_eq!((sets.primary.len(), sets.shadow.len()), (1024, sets.diffuse.len()));
+        for (letter, rays, query) in sets.by_letter() {
+            let Measured { runs, answers, faults } = measure(&stage, letter, rays, query, 1).unwrap();
+            assert_eq!(faults, Vec::<String>::new());
+            let found = answers.iter().filter(|answer| answer.is_hit()).count();
+            assert!((1..hits).contains(&found), "{letter}: {found}");
+            assert!(runs.len() >= 2 && runs.iter().all(|run| run.hits == found && run.mrays_per_s > 0.0));
+        }
+    }
+
+    #[test]
+    fn faces_are_numbered_as_the_file_has_them() {
+        let stage = stage();
+        let down = |x: f32, z: f32| RayRecord {
+            origin: [x, 9.0, z],
+            tmin: 0.0,
+            direction: [0.0, -1.0, 0.0],
+            tmax: 99.0,
+        };
+        let rays = [down(3.0, -3.5), down(-3.0, 3.5), down(0.0, 0.0), down(9.0, 0.0)];
+        let answers = judge(&stage, &rays, Query::Nearest);
+        assert_eq!(answers.iter().map(|answer| answer.face).collect::<Vec<_>>(), [0, 1, 2, NONE]);
+        assert_eq!((answers[0].t, answers[3]), (9.0, RayAnswer::MISS));
+    }
+
+    #[test]
+    fn an_answer_that_differs_in_a_bit_is_found() {
+        let expected = [RayAnswer { t: 1.0, face: 3 }, RayAnswer::MISS];
+        assert_eq!(differing(&expected, &expected), None);
+        assert_eq!(
+            differing(&[RayAnswer { t: 1.0_f32.next_up(), face: 3 }, expected[1]], &expected),
+            Some(0)
+        );
+        assert_eq!(differing(&[expected[0], RayAnswer { t: 0.0, face: 0 }], &expected), Some(1));
+    }
+}

@@ -1,0 +1,153 @@
+//! Which nodes of a binary tree become children of one wide node, and which become its leaves: the cheapest choice by the
+//! surface area heuristic, found from the leaves up (Ylitie, Karras, Laine 2017, "Efficient incoherent ray traversal on
+//! GPUs through compressed wide BVHs", section 3.1).
+
+use super::layout::WIDTH;
+use crate::layout::Node;
+
+/// What testing a leaf's triangles costs, however many they are, against a node's boxes.
+const LEAF_COST: f32 = 1.2;
+
+/// A child of a wide node.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Part {
+    pub(super) lo: [f32; 3],
+    pub(super) hi: [f32; 3],
+    /// The binary node that becomes a wide one; none for a leaf.
+    pub(super) inner: Option<u32>,
+    /// Its triangles.
+    pub(super) first: u32,
+    pub(super) count: u32,
+}
+
+/// A part of the binary tree: a node, or a leaf below one.
+#[derive(Clone, Copy)]
+struct Subtree {
+    lo: [f32; 3],
+    hi: [f32; 3],
+    node: Option<u32>,
+    first: u32,
+    count: u32,
+}
+
+/// The cheapest ways to spend lanes on a binary node.
+#[derive(Clone, Copy)]
+struct Choice {
+    /// Cost of what lies below, given up to i + 1 lanes of the parent.
+    costs: [f32; WIDTH - 1],
+    /// Lanes that go to the first child of i + 1: none where one lane fewer is as cheap. The last is the split of the
+    /// wide node's own lanes.
+    splits: [u8; WIDTH],
+    /// Whether one lane is a leaf.
+    is_leaf: bool,
+    first: u32,
+    count: u32,
+}
+
+/// The choices for every binary node.
+pub(super) struct Collapse<'a> {
+    nodes: &'a [Node],
+    choices: Vec<Choice>,
+}
+
+impl<'a> Collapse<'a> {
+    pub(super) fn new(nodes: &'a [Node]) -> Self {
+        let none = Choice { costs: [0.0; WIDTH - 1], splits: [0; WIDTH], is_leaf: false, first: 0, count: 0 };
+        let mut collapse = Self { nodes, choices: vec![none; nodes.len()] };
+        // A node stands before what is below it.
+        for index in (0..nodes.len()).rev() {
+            collapse.choices[index] = collapse.choose(index as u32);
+        }
+        collapse
+    }
+
+    /// The children of the wide node that stands for a binary one, and how many there are.
+    pub(super) fn children(&self, node: u32) -> ([Part; WIDTH], usize) {
+        let nothing = Part { lo: [0.0; 3], hi: [0.0; 3], inner: None, first: 0, count: 0 };
+        let (mut parts, mut count) = ([nothing; WIDTH], 0);
+        self.split(node, WIDTH, &mut |part| {
+            parts[count] = part;
+            count += 1;
+        });
+        (parts, count)
+    }
+
+    /// Give `lanes` to a node's children.
+    fn split(&self, node: u32, lanes: usize, found: &mut dyn FnMut(Part)) {
+        let left = usize::from(self.choices[node as usize].splits[lanes - 1]);
+        let [a, b] = self.subtrees(node);
+        self.spend(&a, left, found);
+        self.spend(&b, lanes - left, found);
+    }
+
+    /// Give `lanes` to a subtree.
+    fn spend(&self, part: &Subtree, lanes: usize, found: &mut dyn FnMut(Part)) {
+        let Subtree { lo, hi, node, first, count } = *part;
+        let Some(node) = node else { return found(Part { lo, hi, inner: None, first, count }) };
+        let choice = &self.choices[node as usize];
+        let used = (1..lanes).rev().find(|&i| choice.splits[i] > 0).map_or(1, |i| i + 1);
+        if used > 1 {
+            self.split(node, used, found);
+        } else {
+            found(Part { lo, hi, inner: (!choice.is_leaf).then_some(node), first, count });
+        }
+    }
+
+    fn subtrees(&self, node: u32) -> [Subtree; 2] {
+        let node = &self.nodes[node as usize];
+        let subtree = |lo, hi, first: u32, count: u32| {
+            if count > 0 {
+                return Subtree { lo, hi, node: None, first, count };
+            }
+            let below = &self.choices[first as usize];
+            Subtree { lo, hi, node: Some(first), first: below.first, count: below.count }
+        };
+        [
+            subtree(node.a_lo, node.a_hi, node.a_first, node.a_count),
+            subtree(node.b_lo, node.b_hi, node.b_first, node.b_count),
+        ]
+    }
+
+    fn choose(&self, node: u32) -> Choice {
+        let [a, b] = self.subtrees(node);
+        let (x, y) = (self.costs(&a), self.costs(&b));
+        // The cheapest split of so many lanes.
+        let split = |lanes: usize| {
+            (1..lanes)
+                .map(|left| (x[left - 1] + y[lanes - left - 1], left as u8))
+                .fold((f32::INFINITY, 1), |best, next| if next.0 < best.0 { next } else { best })
+        };
+        let first = a.first.min(b.first);
+        let count = (a.first + a.count).max(b.first + b.count) - first;
+        let area = half_area(
+            std::array::from_fn(|axis| a.lo[axis].min(b.lo[axis])),
+            std::array::from_fn(|axis| a.hi[axis].max(b.hi[axis])),
+        );
+        let (own, own_split) = split(WIDTH);
+        let is_leaf = count as usize <= WIDTH && area * LEAF_COST <= area + own;
+        let mut costs = [if is_leaf { area * LEAF_COST } else { area + own }; WIDTH - 1];
+        let mut splits = [0; WIDTH];
+        splits[WIDTH - 1] = own_split;
+        for lanes in 2..WIDTH {
+            let (cost, left) = split(lanes);
+            costs[lanes - 1] = costs[lanes - 2];
+            if cost < costs[lanes - 1] {
+                (costs[lanes - 1], splits[lanes - 1]) = (cost, left);
+            }
+        }
+        Choice { costs, splits, is_leaf, first, count }
+    }
+
+    fn costs(&self, part: &Subtree) -> [f32; WIDTH - 1] {
+        match part.node {
+            Some(node) => self.choices[node as usize].costs,
+            None => [half_area(part.lo, part.hi) * LEAF_COST; WIDTH - 1],
+        }
+    }
+}
+
+/// Half the surface area: finite within the ±2^60 of a scene.
+fn half_area(lo: [f32; 3], hi: [f32; 3]) -> f32 {
+    let [x, y, z]: [f64; 3] = std::array::from_fn(|axis| f64::from(hi[axis]) - f64::from(lo[axis]));
+    (x * y + y * z + z * x) as f32
+}

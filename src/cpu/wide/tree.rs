@@ -1,0 +1,84 @@
+//! The wide tree.
+
+use super::collapse::{Collapse, Part};
+use super::layout::{Child, Leaf, Node, WIDTH};
+use crate::layout::{self, Triangle};
+use rayon::prelude::*;
+
+/// Nodes of eight children over leaves of up to eight triangles.
+#[derive(Debug, Clone)]
+pub(super) struct Tree {
+    /// The root first.
+    pub(super) nodes: Vec<Node>,
+    pub(super) leaves: Vec<Leaf>,
+    /// Index of each leaf's first triangle.
+    firsts: Vec<u32>,
+    /// Least and greatest corner of all boxes.
+    pub(super) bounds: [[f32; 3]; 2],
+}
+
+impl Tree {
+    /// The word that names the first node.
+    pub(super) const ROOT: u32 = 0;
+
+    /// Collapse a binary tree, each of whose subtrees holds triangles that stand in a row.
+    pub(super) fn new(nodes: &[layout::Node], triangles: &[Triangle]) -> Self {
+        let mut writer = Writer { collapse: Collapse::new(nodes), nodes: vec![], rows: vec![] };
+        writer.node(0);
+        let Writer { nodes: wide, rows, .. } = writer;
+        let leaf = |&(first, count): &(u32, u32)| Leaf::new(&triangles[first as usize..][..count as usize]);
+        Self {
+            nodes: wide,
+            leaves: rows.par_iter().map(leaf).collect(),
+            firsts: rows.into_iter().map(|(first, _)| first).collect(),
+            bounds: bounds(&nodes[0]),
+        }
+    }
+
+    /// Index of the triangle at a place.
+    #[inline(always)]
+    pub(super) fn index(&self, place: u32) -> u32 {
+        self.firsts[place as usize / WIDTH] + place % WIDTH as u32
+    }
+
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(&*self.nodes) + size_of_val(&*self.leaves) + size_of_val(&*self.firsts)
+    }
+}
+
+/// The box of both children.
+fn bounds(root: &layout::Node) -> [[f32; 3]; 2] {
+    [
+        std::array::from_fn(|axis| root.a_lo[axis].min(root.b_lo[axis])),
+        std::array::from_fn(|axis| root.a_hi[axis].max(root.b_hi[axis])),
+    ]
+}
+
+/// Writes nodes depth first, and which triangles the leaves hold.
+struct Writer<'a> {
+    collapse: Collapse<'a>,
+    nodes: Vec<Node>,
+    rows: Vec<(u32, u32)>,
+}
+
+impl Writer<'_> {
+    /// Write the node that stands for a binary one, and all below it.
+    fn node(&mut self, binary: u32) -> usize {
+        let index = self.nodes.len();
+        self.nodes.push(Node::EMPTY);
+        let (parts, count) = self.collapse.children(binary);
+        for (lane, part) in parts.iter().take(count).enumerate() {
+            let child = match *part {
+                Part { inner: Some(inner), .. } => Child::Node(self.node(inner)),
+                Part { first, count, .. } => self.leaf(first, count),
+            };
+            self.nodes[index].set(lane, part.lo, part.hi, child);
+        }
+        index
+    }
+
+    fn leaf(&mut self, first: u32, count: u32) -> Child {
+        self.rows.push((first, count));
+        Child::Leaf { index: self.rows.len() - 1, count: count as usize }
+    }
+}
