@@ -65,7 +65,7 @@ pub struct CpuRenderer<'a> {
     pool: rayon::ThreadPool,
     tile: u32,
     /// The scene's tree for rays in f32, from the first of them on.
-    wide: OnceLock<WideBvh>,
+    wide: OnceLock<Box<WideBvh>>,
 }
 
 impl<'a> CpuRenderer<'a> {
@@ -92,7 +92,7 @@ impl<'a> CpuRenderer<'a> {
     }
 
     fn wide(&self) -> &WideBvh {
-        self.wide.get_or_init(|| WideBvh::new(&self.scene.nodes, &self.scene.triangles))
+        self.wide.get_or_init(|| Box::new(WideBvh::new(&self.scene.nodes, &self.scene.triangles)))
     }
 
     /// How many threads trace.

@@ -71,11 +71,11 @@ pub(super) fn with_camera(text: &str, table: &str) -> String {
     });
     let Some(start) = start else {
         // Before the first table, where the keys of none stand.
-        let first = lines.iter().position(|line| is_header(line)).unwrap_or(lines.len());
+        let first = lines.iter().position(is_header).unwrap_or(lines.len());
         let (head, tail) = lines.split_at(first);
         return join(&[head, &[table.trim_end(), ""], tail]);
     };
-    let after = lines[start + 1..].iter().position(|line| is_header(line));
+    let after = lines[start + 1..].iter().position(is_header);
     let end = after.map_or(lines.len(), |after| start + 1 + after);
     // Comments above the next table are its own.
     let own = lines[start + 1..end]

@@ -35,7 +35,7 @@ impl Scale {
     /// Learn what a picture took that was traced at [`Scale::of`] the window's size.
     pub fn took(&mut self, size: [u32; 2], time: Duration) {
         let load = time.as_secs_f64() / TARGET.as_secs_f64();
-        if load > 1.0 || load < IDLE {
+        if !(IDLE..=1.0).contains(&load) {
             // Time grows with the area.
             let wanted = self.0.max(least(size)) * (AIM / load.max(1e-3)).sqrt();
             self.0 = wanted.clamp(least(size), 1.0);
@@ -77,7 +77,7 @@ mod tests {
         for speed in [600.0, 2000.0, 9000.0] {
             let frames = frames(speed, 12);
             let (size, ms) = frames[11];
-            assert!(ms <= 30.0 && ms >= 15.0, "{speed} pixels a millisecond: {ms}");
+            assert!((15.0..=30.0).contains(&ms), "{speed} pixels a millisecond: {ms}");
             assert!(frames[4..].iter().all(|frame| frame.0 == size), "{frames:?}");
         }
     }

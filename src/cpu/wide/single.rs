@@ -124,10 +124,9 @@ pub(super) fn any<S: Simd<WIDTH>>(s: S, tree: &Tree, ray: &Spread<S::F>, root: u
                 }
             }
             Child::Leaf { index, .. } => {
-                if let Some(found) = ray.cross(s, &tree.leaves[index], end) {
-                    if found.bits & s.bits(s.lt(found.t, end)) != 0 {
-                        return true;
-                    }
+                let crossed = ray.cross(s, &tree.leaves[index], end);
+                if crossed.is_some_and(|found| found.bits & s.bits(s.lt(found.t, end)) != 0) {
+                    return true;
                 }
             }
         }
