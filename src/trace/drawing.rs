@@ -15,8 +15,11 @@ const LEAF: f64 = 26.0;
 const LEVEL: f64 = 62.0;
 /// Least and greatest width of the tree, and the size of the side view.
 const TREE_WIDTH: [f64; 2] = [420.0, 4000.0];
-const SIDE: [f64; 2] = [620.0, 520.0];
+const SIDE: [f64; 2] = [720.0, 560.0];
 const MARGIN: f64 = 30.0;
+/// What the signs mean.
+const LEGEND: &str = "blue: refracted; red: reflected; grey circle: met from inside; square: the background that is seen; \
+                      crossed and dashed: cut";
 /// Colours of bodies, in turn.
 const BODIES: [&str; 6] = [SKY, ORANGE, GREEN, PURPLE, BLUE, GREY];
 
@@ -26,18 +29,22 @@ const BODIES: [&str; 6] = [SKY, ORANGE, GREEN, PURPLE, BLUE, GREY];
 pub fn drawing(tree: &Tree, records: &[TreeNode], scene: &FlatScene, title: &str) -> String {
     let shown = heaviest(tree);
     let layout = Layout::new(tree, &shown);
-    let height = (layout.height + 2.0 * MARGIN + 40.0).max(SIDE[1] + 2.0 * MARGIN + 40.0);
+    let side_at = [layout.width + 2.0 * MARGIN, MARGIN + 20.0];
+    let side = records.first().map(|first| Side::new(first, tree, side_at));
+    let side_height = side.as_ref().map_or(0.0, |side| side.frame.height());
+    let height = layout.height.max(side_height) + 2.0 * MARGIN + 40.0;
     let width = layout.width + SIDE[0] + 3.0 * MARGIN;
     let mut canvas = Canvas::new([width, height], title);
     canvas.text([MARGIN, 26.0], title, text(14.0, BLACK, Anchor::Start));
     draw_tree(&mut canvas, tree, &shown, &layout);
-    let hidden = tree.nodes.len() - shown.len();
-    if hidden > 0 {
-        let note = format!("{hidden} fainter rays are not drawn");
-        canvas.text([MARGIN, height - 10.0], &note, text(11.0, "#5a5a5a", Anchor::Start));
+    if let Some(side) = side {
+        side.draw(&mut canvas, tree, &shown, scene, side_at);
     }
-    let area = [layout.width + 2.0 * MARGIN, MARGIN + 20.0];
-    draw_side(&mut canvas, tree, &shown, records, scene, area);
+    let hidden = match tree.nodes.len() - shown.len() {
+        0 => String::new(),
+        rays => format!("; {rays} fainter rays are not drawn"),
+    };
+    canvas.text([MARGIN, height - 12.0], &format!("{LEGEND}{hidden}"), text(11.0, "#5a5a5a", Anchor::Start));
     canvas.finish()
 }
 
@@ -129,57 +136,60 @@ fn draw_leaf(canvas: &mut Canvas, node: &Node, [x, y]: Flat) {
     }
 }
 
-fn draw_side(
-    canvas: &mut Canvas,
-    tree: &Tree,
-    shown: &[usize],
-    records: &[TreeNode],
-    scene: &FlatScene,
-    area: Flat,
-) {
-    let Some(first) = records.first() else { return };
-    let plane = Plane::of(first);
-    let points: Vec<_> = tree
-        .nodes
-        .iter()
-        .filter_map(|node| node.hit.as_ref())
-        .map(|hit| plane.project(widen(hit.point)))
-        .collect();
-    let frame = Frame::around(&points, area);
-    canvas.text(
-        [area[0], area[1] - 8.0],
-        "from the side, cut along the first ray",
-        text(12.0, "#5a5a5a", Anchor::Start),
-    );
-    // Each body's section, and its name over the highest point of it.
-    let mut tops: BTreeMap<u32, Flat> = BTreeMap::new();
-    for (body, ends) in plane.cut(scene) {
-        if let Some([a, b]) = frame.clip(ends) {
-            canvas.line(a, b, BODIES[body as usize % BODIES.len()], 1.0, "");
-            let top = tops.entry(body).or_insert(a);
-            *top = if a[1] < top[1] { a } else { *top };
-        }
+/// The rays from the side, over the scene cut open.
+struct Side {
+    plane: Plane,
+    frame: Frame,
+}
+
+impl Side {
+    /// Along the first ray, around all points where rays meet surfaces.
+    fn new(first: &TreeNode, tree: &Tree, area: Flat) -> Self {
+        let plane = Plane::of(first);
+        let hits = tree.nodes.iter().filter_map(|node| node.hit.as_ref());
+        let points: Vec<_> = hits.map(|hit| plane.project(widen(hit.point))).collect();
+        Self { plane, frame: Frame::around(&points, area) }
     }
-    for (body, [x, y]) in tops {
-        let name = scene.bodies.get(body as usize).map_or("", |body| body.name.as_str());
-        canvas.text([x, y - 4.0], name, text(11.0, BODIES[body as usize % BODIES.len()], Anchor::Middle));
-    }
-    for &id in shown.iter().rev() {
-        let node = &tree.nodes[id];
-        if node.end.is_untraced() {
-            continue;
-        }
-        let start = plane.project(widen(node.origin));
-        let end = match &node.hit {
-            Some(hit) => plane.project(widen(hit.point)),
-            None => {
-                let far = frame.reach;
-                let at = |i: usize| f64::from(node.origin[i]) + far * f64::from(node.direction[i]);
-                plane.project([at(0), at(1), at(2)])
+
+    fn draw(&self, canvas: &mut Canvas, tree: &Tree, shown: &[usize], scene: &FlatScene, [x, y]: Flat) {
+        let caption = "from the side, cut along the first ray";
+        canvas.text([x, y - 8.0], caption, text(12.0, "#5a5a5a", Anchor::Start));
+        self.draw_bodies(canvas, scene);
+        for &id in shown.iter().rev() {
+            let node = &tree.nodes[id];
+            if node.end.is_untraced() {
+                continue;
             }
-        };
-        if let Some([a, b]) = frame.clip([start, end]) {
-            canvas.line(a, b, color_of(node), width_of(node), dash_of(node));
+            let ends = [widen(node.origin), self.end_of(node)].map(|point| self.plane.project(point));
+            if let Some([a, b]) = self.frame.clip(ends) {
+                canvas.line(a, b, color_of(node), width_of(node), dash_of(node));
+            }
+        }
+    }
+
+    /// Each body's section, and its name over the highest point of it.
+    fn draw_bodies(&self, canvas: &mut Canvas, scene: &FlatScene) {
+        let mut tops: BTreeMap<u32, Flat> = BTreeMap::new();
+        for (body, ends) in self.plane.cut(scene) {
+            if let Some([a, b]) = self.frame.clip(ends) {
+                canvas.line(a, b, BODIES[body as usize % BODIES.len()], 1.0, "");
+                let top = tops.entry(body).or_insert(a);
+                *top = if a[1] < top[1] { a } else { *top };
+            }
+        }
+        for (body, [x, y]) in tops {
+            let name = scene.bodies.get(body as usize).map_or("", |body| body.name.as_str());
+            canvas.text([x, y - 4.0], name, text(11.0, BODIES[body as usize % BODIES.len()], Anchor::Middle));
+        }
+    }
+
+    /// Where a ray meets a surface; beyond the frame if it meets none.
+    fn end_of(&self, node: &Node) -> [f64; 3] {
+        match &node.hit {
+            Some(hit) => widen(hit.point),
+            None => std::array::from_fn(|i| {
+                f64::from(node.origin[i]) + self.frame.reach * f64::from(node.direction[i])
+            }),
         }
     }
 }
@@ -207,10 +217,15 @@ impl Frame {
         if points.is_empty() {
             (low, high) = ([0.0; 2], [1.0; 2]);
         }
-        let room = (high[0] - low[0]).max(high[1] - low[1]).max(1e-9) * 0.35;
+        let room = (high[0] - low[0]).max(high[1] - low[1]).max(1e-9) * 0.25;
         let (low, high) = (low.map(|v| v - room), high.map(|v| v + room));
         let scale = (SIDE[0] / (high[0] - low[0])).min(SIDE[1] / (high[1] - low[1]));
         Self { low, high, area, scale, reach: 4.0 * (room + high[0] - low[0] + high[1] - low[1]) }
+    }
+
+    /// What it takes on the sheet.
+    fn height(&self) -> f64 {
+        (self.high[1] - self.low[1]) * self.scale
     }
 
     /// A segment's part in the frame, on the sheet (Liang and Barsky 1984).

@@ -15,7 +15,7 @@ h1{font-size:1.6em}h2{font-size:1.2em;margin-top:2em}\
 table{border-collapse:collapse;font-size:.82em;font-variant-numeric:tabular-nums}\
 th,td{padding:.25em .6em;text-align:right;border-bottom:1px solid #ddd}\
 th{border-bottom:1.5px solid #111;vertical-align:bottom}\
-th:first-child,td:first-child{text-align:left}\
+th:first-child,td:first-child{text-align:left}td{white-space:nowrap}td:last-child{white-space:normal}\
 figure{margin:1.5em 0}figure svg{max-width:100%;height:auto}figcaption{font-size:.9em;color:#333}\
 .errors{display:flex;flex-wrap:wrap;gap:.8em}.errors figure{margin:0;width:210px}\
 .errors img{width:100%;image-rendering:pixelated}.scroll{overflow-x:auto}";
