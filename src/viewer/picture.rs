@@ -177,6 +177,10 @@ fn keys(ui: &Ui, session: &mut Session) {
     if plain(Key::H) || plain(Key::Questionmark) || pressed(Modifiers::SHIFT, Key::Slash) {
         session.is_help_open = !session.is_help_open;
     }
+    if plain(Key::Escape) {
+        session.is_help_open = false;
+        session.toasts.clear();
+    }
     if plain(Key::P) {
         session.is_panel_open = !session.is_panel_open;
     }

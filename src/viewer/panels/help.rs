@@ -37,6 +37,7 @@ const SHORTCUTS: &[(&str, &[(&str, &str)])] = &[
             ("F12", "write the picture to a new file"),
             ("P", "the panel, on and off"),
             ("H, ?", "this list"),
+            ("Escape", "put away this list and all messages"),
             ("Tab, Space", "go through the controls, and press them"),
             ("Ctrl+Q", "quit"),
         ],

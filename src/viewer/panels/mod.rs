@@ -71,12 +71,15 @@ fn panel(ui: &mut Ui, session: &mut Session) {
 /// Dark, light, or as the desktop has it.
 fn theme(ui: &mut Ui) {
     let mut wanted = ui.options(|options| options.theme_preference);
-    egui::ComboBox::from_id_salt("theme").width(70.0).selected_text(name_of(wanted)).show_ui(ui, |ui| {
-        for one in [egui::ThemePreference::System, egui::ThemePreference::Dark, egui::ThemePreference::Light]
-        {
-            ui.selectable_value(&mut wanted, one, name_of(one));
-        }
-    });
+    let shown =
+        egui::ComboBox::from_id_salt("theme").width(70.0).selected_text(name_of(wanted)).show_ui(ui, |ui| {
+            for one in
+                [egui::ThemePreference::System, egui::ThemePreference::Dark, egui::ThemePreference::Light]
+            {
+                ui.selectable_value(&mut wanted, one, name_of(one));
+            }
+        });
+    shown.response.accessible_name("theme");
     ui.ctx().set_theme(wanted);
 }
 

@@ -49,6 +49,8 @@ fn session() -> Session {
 const STEP: f32 = 0.02;
 /// The window in points, panel and all.
 const WINDOW: Vec2 = Vec2::new(960.0, 900.0);
+/// What the harness leaves free around what it shows.
+const MARGIN: Vec2 = Vec2::splat(8.0);
 
 fn harness() -> Harness<'static, Session> {
     let show = |ui: &mut egui::Ui, session: &mut Session| {
@@ -116,11 +118,12 @@ fn the_wheel_comes_nearer() {
 #[test]
 fn a_click_asks_what_the_pixel_is_made_of_and_a_double_click_for_a_pivot() {
     let mut harness = harness();
-    harness.hover_at(Pos2::new(100.0, 50.0));
+    let at = Pos2::new(100.5, 50.5) + MARGIN;
+    harness.hover_at(at);
     for _ in 0..2 {
-        harness.drag_at(Pos2::new(100.0, 50.0));
+        harness.drag_at(at);
         harness.step();
-        harness.drop_at(Pos2::new(100.0, 50.0));
+        harness.drop_at(at);
         harness.step();
     }
     assert_eq!(harness.state().orders, [Order::Inspect([100, 50]), Order::SetPivot([100, 50])]);

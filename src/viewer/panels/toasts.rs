@@ -7,7 +7,7 @@ use egui::{Align2, Area, Frame, Id, Rect, RichText, Ui};
 use super::super::session::Session;
 use super::warning;
 
-/// Show what was said lately; a click puts it away.
+/// Show what was said lately; a click puts one away, Escape all (`picture`).
 pub(super) fn show(ui: &Ui, session: &mut Session, rect: Rect) {
     let now = Instant::now();
     session.toasts.retain(|toast| toast.until > now);
