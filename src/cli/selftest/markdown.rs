@@ -4,8 +4,9 @@ use super::arithmetic;
 use super::report::{CaseReport, Figure, Report};
 use super::text::{cell, sentence};
 
-/// The page: adapters, their arithmetic, a table case × device, what each case claims, and every figure.
-pub(super) fn page(report: &Report) -> String {
+/// The page: adapters, their arithmetic, a table case × device, what each case claims, and the figures beyond their bounds,
+/// or if `verbose` all of them.
+pub(super) fn page(report: &Report, verbose: bool) -> String {
     let mut text = format!(
         "# Stability\n\nWritten by `snellius selftest --markdown`, version {}, {} run, {} test.\n\n",
         report.version, report.effort, report.intersector
@@ -23,8 +24,11 @@ pub(super) fn page(report: &Report) -> String {
     for case in &report.cases {
         text += &format!("\n### {}: {}\n\nClaim: {}.\n", case.case, case.title, case.claim);
         for result in &case.results {
-            text += &format!("\n{}:\n\n", result.device);
-            text += &result.findings.iter().map(item).collect::<String>();
+            let items: String =
+                result.findings.iter().filter(|figure| verbose || !figure.holds).map(item).collect();
+            if !items.is_empty() {
+                text += &format!("\n{}:\n\n{items}", result.device);
+            }
         }
     }
     text

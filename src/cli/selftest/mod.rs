@@ -39,7 +39,7 @@ pub(super) struct SelftestArgs {
     /// Print one JSON object
     #[arg(long, conflicts_with = "markdown")]
     json: bool,
-    /// Print a page in Markdown
+    /// Print a page in Markdown; -v adds every figure
     #[arg(long)]
     markdown: bool,
     /// Only the CPU, or only Vulkan adapters
@@ -86,7 +86,7 @@ pub(super) fn run(args: &SelftestArgs, console: Console) -> Result<Outcome, CliE
     if args.json {
         print_json(&report)?;
     } else if args.markdown {
-        print(&markdown::page(&report))?;
+        print(&markdown::page(&report, console.is_verbose()))?;
     } else {
         print(&text::tables(&report, console.is_verbose()))?;
     }
