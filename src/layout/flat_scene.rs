@@ -68,3 +68,34 @@ pub struct FlatScene {
     /// background, Lₖ₊₁ = max(L₀, A + g·Lₖ) with the largest local term A and the greatest gain g of a material.
     pub radiance_bound: Vec<f32>,
 }
+
+impl FlatScene {
+    /// Triangles under their tree, of no body and no matter, in the dark: for rays alone. `depth` is the tree's.
+    #[must_use]
+    pub fn of_triangles(
+        nodes: Vec<Node>,
+        triangles: Vec<Triangle>,
+        bounds: [[f32; 3]; 2],
+        depth: u32,
+    ) -> Self {
+        Self {
+            nodes,
+            triangles,
+            bounds,
+            bvh_depth: depth,
+            attributes: vec![],
+            corners: vec![],
+            materials: vec![],
+            material_names: vec![],
+            lights: vec![],
+            texels: vec![],
+            bodies: vec![],
+            transmissive_bodies: 0,
+            ambient: [0.0; 3],
+            horizon: [0.0; 3],
+            zenith: [0.0; 3],
+            environment: None,
+            radiance_bound: vec![],
+        }
+    }
+}

@@ -73,7 +73,7 @@ impl RayStage {
         let half = (pinhole.fov.unwrap_or(camera.fov_y).to_radians() / 2.0).tan();
         Ok(Self {
             view: View { scene_lo: bounds[0], scene_hi: bounds[1], ..View::zeroed() },
-            scene: bare(tree.nodes, triangles, bounds, tree.depth),
+            scene: FlatScene::of_triangles(tree.nodes, triangles, bounds, tree.depth),
             wide,
             eye,
             forward,
@@ -122,32 +122,4 @@ fn triangles(scene: &Scene) -> Vec<Triangle> {
     let triangle =
         |([v0, v1, v2], id): ([[f32; 3]; 3], u32)| Triangle { v0, id, v1, reserved1: 0, v2, reserved2: 0 };
     faces.zip(0..).map(triangle).collect()
-}
-
-/// A scene of triangles without anything else.
-fn bare(
-    nodes: Vec<crate::layout::Node>,
-    triangles: Vec<Triangle>,
-    bounds: [[f32; 3]; 2],
-    bvh_depth: u32,
-) -> FlatScene {
-    FlatScene {
-        nodes,
-        triangles,
-        bounds,
-        bvh_depth,
-        attributes: vec![],
-        corners: vec![],
-        materials: vec![],
-        material_names: vec![],
-        lights: vec![],
-        texels: vec![],
-        bodies: vec![],
-        transmissive_bodies: 0,
-        ambient: [0.0; 3],
-        horizon: [0.0; 3],
-        zenith: [0.0; 3],
-        environment: None,
-        radiance_bound: vec![],
-    }
 }

@@ -37,25 +37,7 @@ impl Subject {
         let view = View { scene_lo, scene_hi, ..View::zeroed() };
         let trees =
             Level::available().into_iter().map(|level| WideBvh { tree: wide.clone(), level }).collect();
-        let scene = FlatScene {
-            nodes: tree.nodes,
-            triangles,
-            attributes: vec![],
-            corners: vec![],
-            materials: vec![],
-            material_names: vec![],
-            lights: vec![],
-            texels: vec![],
-            bodies: vec![],
-            transmissive_bodies: 0,
-            bounds: [scene_lo, scene_hi],
-            bvh_depth: tree.depth,
-            ambient: [0.0; 3],
-            horizon: [0.0; 3],
-            zenith: [0.0; 3],
-            environment: None,
-            radiance_bound: vec![],
-        };
+        let scene = FlatScene::of_triangles(tree.nodes, triangles, [scene_lo, scene_hi], tree.depth);
         Self { scene, view, trees }
     }
 

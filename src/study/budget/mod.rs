@@ -5,6 +5,7 @@
 //! way, and what too few samples miss ([`Pilot`]). Where the samples are given, the judge is the whole tree in f64 of the
 //! same ones.
 
+mod bisection;
 mod estimate;
 mod model;
 mod pilot;

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use super::super::StudyError;
 use super::super::metrics::Seen;
 use super::Request;
+use super::bisection::first;
 use super::estimate::{figure, values};
 use crate::cpu::CpuRenderer;
 use crate::film::{Frame, Metric, Renderer};
@@ -145,19 +146,12 @@ impl<'a> Pilot<'a> {
         if most <= BASE_SAMPLES {
             return Ok(None);
         }
-        let [mut low, last] = THRESHOLDS;
-        let (mut high, mut found) = (last + 1, None);
-        while low < high {
-            let middle = i32::midpoint(low, high);
-            let tried = self.try_out(most, Some(2.0_f32.powi(-middle)), reference)?;
-            if tried.figure[1] <= limit {
-                found = Some(tried);
-                high = middle;
-            } else {
-                low = middle + 1;
-            }
-        }
-        Ok(found)
+        let threshold = |exponent: i32| 2.0_f32.powi(-exponent);
+        first(
+            THRESHOLDS,
+            |exponent| self.try_out(most, Some(threshold(exponent)), reference),
+            |tried| tried.figure[1] <= limit,
+        )
     }
 
     /// Hold samples against more of them.

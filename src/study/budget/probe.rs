@@ -9,6 +9,7 @@ use super::super::metrics::Seen;
 use super::super::plan::Setup;
 use super::super::reference::{Reference, Uncertainty, whole};
 use super::Request;
+use super::bisection::first;
 use super::estimate::{figure, values};
 use crate::cpu::CpuRenderer;
 use crate::film::{Metric, Renderer};
@@ -110,7 +111,11 @@ impl<'a> Probe<'a> {
     pub(super) fn coarsest(&mut self, precision: Precision, limit: f64) -> Result<Tried, StudyError> {
         let deep = Settings { depth: MAX_DEPTH, precision, ..self.request.base };
         let cut = |exponent: i32| Settings { cutoff: cutoff(exponent), ..deep };
-        match self.first([COARSEST, FINEST], cut, limit)? {
+        match first(
+            [COARSEST, FINEST],
+            |exponent| self.try_out(cut(exponent)),
+            |tried| tried.figure[1] <= limit,
+        )? {
             Some(cut) => self.shallowest(cut, limit),
             None => self.try_out(cut(FINEST)),
         }
@@ -119,28 +124,9 @@ impl<'a> Probe<'a> {
     /// The same with the least depth that keeps the limit.
     pub(super) fn shallowest(&mut self, tried: Tried, limit: f64) -> Result<Tried, StudyError> {
         let depth = |depth: i32| Settings { depth: depth.unsigned_abs(), ..tried.settings };
-        Ok(self.first([0, MAX_DEPTH as i32], depth, limit)?.unwrap_or(tried))
-    }
-
-    /// The first of ever finer settings that keeps a limit, by bisection.
-    fn first(
-        &mut self,
-        [from, to]: [i32; 2],
-        settings: impl Fn(i32) -> Settings,
-        limit: f64,
-    ) -> Result<Option<Tried>, StudyError> {
-        let (mut low, mut high, mut found) = (from, to + 1, None);
-        while low < high {
-            let middle = i32::midpoint(low, high);
-            let tried = self.try_out(settings(middle.min(to)))?;
-            if tried.figure[1] <= limit {
-                found = Some(tried);
-                high = middle;
-            } else {
-                low = middle + 1;
-            }
-        }
-        Ok(found)
+        let found =
+            first([0, MAX_DEPTH as i32], |at| self.try_out(depth(at)), |tried| tried.figure[1] <= limit)?;
+        Ok(found.unwrap_or(tried))
     }
 }
 
