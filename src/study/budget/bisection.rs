@@ -14,7 +14,8 @@ pub(super) fn first<T>(
 ) -> Result<Option<T>, StudyError> {
     let (mut low, mut high, mut found) = (from, to + 1, None);
     while low < high {
-        let middle = i32::midpoint(low, high);
+        // Rounded down, below zero too.
+        let middle = low + (high - low) / 2;
         let tried = try_out(middle)?;
         if keeps(&tried) {
             found = Some(tried);
