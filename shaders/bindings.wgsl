@@ -4,9 +4,9 @@
 // Nodes and triangles, which rays fetch most, lie there as vectors of four words: drivers without gathering loads fetch
 // vector by vector, invocation by invocation, and need as long for three words, or one, as for four.
 
-import package::records::{Attribute, Corner, Film, Frame, Material, Node, Triangle};
+import package::records::{Attribute, Corner, Film, Frame, Material, Triangle, WideNode};
 
-@group(0) @binding(0) var<storage, read> nodes: array<array<vec4u, 4>>;
+@group(0) @binding(0) var<storage, read> nodes: array<array<vec4u, 5>>;
 @group(0) @binding(1) var<storage, read> triangles: array<array<vec4u, 3>>;
 @group(0) @binding(2) var<storage, read> attributes: array<Attribute>;
 @group(0) @binding(3) var<storage, read> corners: array<Corner>;
@@ -16,11 +16,11 @@ import package::records::{Attribute, Corner, Film, Frame, Material, Node, Triang
 @group(0) @binding(7) var<storage, read_write> film: Film;
 
 // A node of the tree.
-fn node_at(index: u32) -> Node {
+fn node_at(index: u32) -> WideNode {
     let words = nodes[index];
-    return Node(
-        bitcast<vec3f>(words[0].xyz), words[0].w, bitcast<vec3f>(words[1].xyz), words[1].w,
-        bitcast<vec3f>(words[2].xyz), words[2].w, bitcast<vec3f>(words[3].xyz), words[3].w,
+    return WideNode(
+        bitcast<vec3f>(words[0].xyz), words[0].w, words[1].x, words[1].y, words[1].zw,
+        array<vec4u, 3>(words[2], words[3], words[4]),
     );
 }
 

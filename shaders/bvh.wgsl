@@ -3,9 +3,10 @@
 import package::real::{real, vec3r, least, greatest};
 import package::triangle::{Shear, shear_of, intersect_triangle};
 import package::records::Triangle;
-import package::bindings::{frame, node_at, triangle_at};
+import package::bindings::{frame, triangle_at};
+import package::wide::{is_done, sight_of, visit, whole_tree};
 import package::constants::{
-    BVH_STACK, FAR, LEAST_DIRECTION, LOOP_STEPS, MOST_REACH, NODE_STEPS, NONE, ORIGIN_PADDING, SLAB_PADDING,
+    FAR, LEAST_DIRECTION, LOOP_STEPS, MOST_REACH, NODE_STEPS, NONE, ORIGIN_PADDING, SLAB_PADDING,
 };
 
 // A ray, prepared for boxes and triangles.
@@ -34,9 +35,6 @@ struct Span {
     entry: real,
     exit: real,
 }
-
-// Declared once: a function's own array would be cleared at every call.
-var<private> bvh_stack: array<u32, BVH_STACK>;
 
 // Passes through loops so far, those of the leaves' triangles too: an invocation rests when it has made enough.
 var<private> steps: u32;
@@ -119,63 +117,19 @@ fn intersect(ray: Ray, limit: real) -> Hit {
         best.id = NONE;
         return best;
     }
-    var size = 0u;
-    var at = 0u;
-    // Triangles that are still to be tested: of the leaf in work, then of the one behind it.
-    var leaf = vec2u(0u, 0u);
-    var waiting = vec2u(0u, 0u);
+    let sight = sight_of(ray);
+    var ahead = whole_tree();
     loop {
         steps += NODE_STEPS;
-        if leaf.x < leaf.y {
-            best = nearer(ray, leaf.x, best);
-            leaf.x++;
-            if leaf.x == leaf.y {
-                leaf = waiting;
-                waiting = vec2u(0u, 0u);
-            }
+        if ahead.triangles != 0u {
+            best = nearer(ray, ahead.first_triangle + firstTrailingBit(ahead.triangles), best);
+            ahead.triangles &= ahead.triangles - 1u;
         }
-        if leaf.x == leaf.y {
-            if at == NONE {
+        if ahead.triangles == 0u {
+            if is_done(ahead) {
                 break;
             }
-            // Meet both children.
-            let node = node_at(at);
-            let a = slabs(ray, vec3r(node.a_lo), vec3r(node.a_hi));
-            let b = slabs(ray, vec3r(node.b_lo), vec3r(node.b_hi));
-            let hits_a = a.entry <= a.exit && a.entry <= best.t;
-            let hits_b = b.entry <= b.exit && b.entry <= best.t;
-            // Nearer child first; leaves at once.
-            let swap = b.entry < a.entry;
-            let children = vec4u(node.a_first, node.a_count, node.b_first, node.b_count);
-            let near = select(children.xy, children.zw, swap);
-            let distant = select(children.zw, children.xy, swap);
-            let hits_near = select(hits_a, hits_b, swap);
-            let hits_distant = select(hits_b, hits_a, swap);
-            if hits_near && near.y > 0u {
-                leaf = vec2u(near.x, near.x + near.y);
-            }
-            if hits_distant && distant.y > 0u {
-                let range = vec2u(distant.x, distant.x + distant.y);
-                waiting = select(waiting, range, leaf.x < leaf.y);
-                leaf = select(range, leaf, leaf.x < leaf.y);
-            }
-            // Descend, the farther one waits.
-            let enters_near = hits_near && near.y == 0u;
-            let enters_distant = hits_distant && distant.y == 0u;
-            if enters_near && enters_distant {
-                bvh_stack[size] = distant.x;
-                size++;
-            }
-            if enters_near {
-                at = near.x;
-            } else if enters_distant {
-                at = distant.x;
-            } else if size > 0u {
-                size--;
-                at = bvh_stack[size];
-            } else {
-                at = NONE;
-            }
+            ahead = visit(sight, ahead, best.t);
         }
     }
     if best.index == NONE {
@@ -184,68 +138,32 @@ fn intersect(ray: Ray, limit: real) -> Hit {
     return best;
 }
 
-// Whether any triangle lies in (0, limit): for shadows of which every blocker is opaque. In no order, to the first that
-// is found.
+// Whether any triangle lies in (0, limit): for shadows of which every blocker is opaque. To the first that is found.
 fn occluded(ray: Ray, limit: real) -> bool {
     if !is_usable(ray) {
         return false;
     }
     let nothing = Hit(limit, 0u, NONE, 0.0, 0.0, false);
-    var size = 0u;
-    var at = 0u;
-    var leaf = vec2u(0u, 0u);
-    var waiting = vec2u(0u, 0u);
+    let sight = sight_of(ray);
+    var ahead = whole_tree();
+    var found = false;
     loop {
         steps += NODE_STEPS;
-        if leaf.x < leaf.y {
-            if nearer(ray, leaf.x, nothing).index != NONE {
-                return true;
-            }
-            leaf.x++;
-            if leaf.x == leaf.y {
-                leaf = waiting;
-                waiting = vec2u(0u, 0u);
-            }
+        if ahead.triangles != 0u {
+            found = nearer(ray, ahead.first_triangle + firstTrailingBit(ahead.triangles), nothing).index != NONE;
+            ahead.triangles &= ahead.triangles - 1u;
         }
-        if leaf.x == leaf.y {
-            if at == NONE {
+        if found {
+            break;
+        }
+        if ahead.triangles == 0u {
+            if is_done(ahead) {
                 break;
             }
-            // Meet both children.
-            let node = node_at(at);
-            let a = slabs(ray, vec3r(node.a_lo), vec3r(node.a_hi));
-            let b = slabs(ray, vec3r(node.b_lo), vec3r(node.b_hi));
-            let hits_a = a.entry <= a.exit && a.entry <= limit;
-            let hits_b = b.entry <= b.exit && b.entry <= limit;
-            // Leaves at once.
-            if hits_a && node.a_count > 0u {
-                leaf = vec2u(node.a_first, node.a_first + node.a_count);
-            }
-            if hits_b && node.b_count > 0u {
-                let range = vec2u(node.b_first, node.b_first + node.b_count);
-                waiting = select(waiting, range, leaf.x < leaf.y);
-                leaf = select(range, leaf, leaf.x < leaf.y);
-            }
-            // Descend, the second one waits.
-            let enters_a = hits_a && node.a_count == 0u;
-            let enters_b = hits_b && node.b_count == 0u;
-            if enters_a && enters_b {
-                bvh_stack[size] = node.b_first;
-                size++;
-            }
-            if enters_a {
-                at = node.a_first;
-            } else if enters_b {
-                at = node.b_first;
-            } else if size > 0u {
-                size--;
-                at = bvh_stack[size];
-            } else {
-                at = NONE;
-            }
+            ahead = visit(sight, ahead, limit);
         }
     }
-    return false;
+    return found;
 }
 
 // The limit of a ray without end.

@@ -3,6 +3,7 @@
 @if(f64) alias real = f64;
 @if(!f64) alias real = f32;
 alias vec3r = vec3<real>;
+alias vec4r = vec4<real>;
 
 // The lesser; `b` where they are equal.
 fn least(a: real, b: real) -> real {

@@ -4,11 +4,10 @@ import package::constants::{BOUND_ROWS, LANES, MEDIA_ROWS, STACK_SIZE, TREE_NODE
 import package::film::Sample;
 import package::whitted::Branch;
 
-struct Node {
-    a_lo: vec3f, a_first: u32,
-    a_hi: vec3f, a_count: u32,
-    b_lo: vec3f, b_first: u32,
-    b_hi: vec3f, b_count: u32,
+struct WideNode {
+    origin: vec3f, scales: u32,
+    first_child: u32, first_triangle: u32, leaves: vec2u,
+    planes: array<vec4u, 3>,
 }
 
 struct Triangle {

@@ -20,15 +20,15 @@ impl Aabb {
 
     /// The box of `self` and a point.
     pub(super) fn with(self, point: [f32; 3]) -> Self {
-        Self {
-            lo: std::array::from_fn(|axis| self.lo[axis].min(point[axis])),
-            hi: std::array::from_fn(|axis| self.hi[axis].max(point[axis])),
-        }
+        self.union(&Self { lo: point, hi: point })
     }
 
     /// The box of both.
     pub(super) fn union(self, other: &Self) -> Self {
-        self.with(other.lo).with(other.hi)
+        Self {
+            lo: std::array::from_fn(|axis| self.lo[axis].min(other.lo[axis])),
+            hi: std::array::from_fn(|axis| self.hi[axis].max(other.hi[axis])),
+        }
     }
 
     /// Half the surface area, in f64: it overflows f32 long before coordinates do. 0 where empty.

@@ -1,36 +1,42 @@
 //! The guaranteed builder: top down, binned surface area heuristic (Wald 2007, "On fast construction of
 //! SAH-based bounding volume hierarchies"), with a median split wherever the depth would run out.
 
-use super::aabb::Aabb;
-use super::tree::{Branch, Item, Tree};
+use glam::Vec4;
+use rayon::prelude::*;
+
+use super::tree::{Branch, Tree};
 use super::{MAX_LEAF, NODE_COST};
 use crate::layout::Triangle;
 use crate::layout::constants::MAX_BVH_DEPTH;
 
-/// Bins on each axis; 16 is within a per cent of a full sweep (Wald 2007, section 4).
+/// Bins on each axis, at most; 16 is within a per cent of a full sweep (Wald 2007, section 4).
 const BINS: usize = 16;
+/// Bins over the fewest items, and items for which there is one more: most nodes are small, and clearing bins is what
+/// they cost. The trees cost within half a per cent of those of 16 bins.
+const LEAST_BINS: usize = 4;
+const ITEMS_A_BIN: usize = 16;
 
 /// Subtrees over fewer triangles are built by one thread.
 const PARALLEL: usize = 8192;
 
 /// Build a tree of at most [`MAX_BVH_DEPTH`] levels with at most [`MAX_LEAF`] triangles a leaf, for any
-/// triangles with finite corners. `triangles` is not empty.
+/// triangles with finite corners. `triangles` is not empty; each node comes before its children.
 pub(super) fn build(triangles: &[Triangle]) -> Tree {
-    let mut items: Vec<Item> =
-        triangles.iter().zip(0..).map(|(triangle, index)| Item { aabb: Aabb::of(triangle), index }).collect();
+    let item = |(index, triangle)| Item::new(triangle, index as u32);
+    let mut items: Vec<Item> = triangles.par_iter().enumerate().map(item).collect();
     let nodes = subtree(&mut items, 0, MAX_BVH_DEPTH);
-    Tree { nodes, order: items.iter().map(|item| item.index).collect() }
+    Tree { nodes, order: items.iter().map(Item::index).collect() }
 }
 
 /// The nodes over `items`, whose first stands at `offset` in the order; at most `levels` inner nodes follow
 /// each other.
 fn subtree(items: &mut [Item], offset: u32, levels: u32) -> Vec<Branch> {
     if items.len() < PARALLEL {
-        let mut nodes = vec![Branch { first: 0, count: 0 }];
-        grow(&mut nodes, 0, items, offset, levels);
-        return nodes;
+        let mut grower = Grower { nodes: vec![Branch { first: 0, count: 0 }], gathered: Gathered::new() };
+        grower.grow(0, items, offset, levels);
+        return grower.nodes;
     }
-    let middle = split(items, levels).unwrap_or(items.len() / 2);
+    let middle = split(items, levels, &mut Gathered::new()).unwrap_or(items.len() / 2);
     let (left, right) = items.split_at_mut(middle);
     let (left, right) = rayon::join(
         || subtree(left, offset, levels - 1),
@@ -39,18 +45,26 @@ fn subtree(items: &mut [Item], offset: u32, levels: u32) -> Vec<Branch> {
     join(&left, &right)
 }
 
-/// Write the node over `items` to its slot and everything below it to the end.
-fn grow(nodes: &mut Vec<Branch>, slot: usize, items: &mut [Item], offset: u32, levels: u32) {
-    let Some(middle) = split(items, levels) else {
-        nodes[slot] = Branch { first: offset, count: items.len() as u32 };
-        return;
-    };
-    let children = nodes.len();
-    nodes[slot] = Branch { first: children as u32, count: 0 };
-    nodes.extend([Branch { first: 0, count: 0 }; 2]);
-    let (left, right) = items.split_at_mut(middle);
-    grow(nodes, children, left, offset, levels - 1);
-    grow(nodes, children + 1, right, offset + middle as u32, levels - 1);
+/// The subtree that one thread builds, and what it gathers in for each node.
+struct Grower {
+    nodes: Vec<Branch>,
+    gathered: Gathered,
+}
+
+impl Grower {
+    /// Write the node over `items` to its slot and everything below it to the end.
+    fn grow(&mut self, slot: usize, items: &mut [Item], offset: u32, levels: u32) {
+        let Some(middle) = split(items, levels, &mut self.gathered) else {
+            self.nodes[slot] = Branch { first: offset, count: items.len() as u32 };
+            return;
+        };
+        let children = self.nodes.len();
+        self.nodes[slot] = Branch { first: children as u32, count: 0 };
+        self.nodes.extend([Branch { first: 0, count: 0 }; 2]);
+        let (left, right) = items.split_at_mut(middle);
+        self.grow(children, left, offset, levels - 1);
+        self.grow(children + 1, right, offset + middle as u32, levels - 1);
+    }
 }
 
 /// One inner node over two subtrees: their roots become its adjacent children, the rest follows.
@@ -68,16 +82,19 @@ fn join(left: &[Branch], right: &[Branch]) -> Vec<Branch> {
 }
 
 /// Order `items` so that two halves meet at the returned place, or `None` where they are one leaf.
-fn split(items: &mut [Item], levels: u32) -> Option<usize> {
+fn split(items: &mut [Item], levels: u32, gathered: &mut Gathered) -> Option<usize> {
     if items.len() == 1 {
         return None;
     }
     let fits = items.len() <= MAX_LEAF as usize;
-    let centres = items.iter().fold(Aabb::EMPTY, |aabb, item| aabb.with(centre(item)));
+    let (whole, centres) = items.iter().fold((Extent::EMPTY, Extent::EMPTY), |(whole, centres), item| {
+        let centre = item.centre();
+        (whole.union(item.extent), centres.union(Extent { lo: centre, hi: centre }))
+    });
     if levels <= levels_of_medians(items.len()) {
         return if fits { None } else { Some(split_at_median(items, &centres)) };
     }
-    match best_plane(items, &centres) {
+    match best_plane(items, &whole, &centres, gathered) {
         Some(plane) if !fits || plane.cost < items.len() as f64 => Some(split_at_plane(items, &plane)),
         Some(_) => None,
         None if fits => None,
@@ -91,84 +108,62 @@ fn levels_of_medians(count: usize) -> u32 {
 }
 
 /// Halve by count along the longest axis of the centres.
-fn split_at_median(items: &mut [Item], centres: &Aabb) -> usize {
+fn split_at_median(items: &mut [Item], centres: &Extent) -> usize {
     let length = |axis: usize| f64::from(centres.hi[axis]) - f64::from(centres.lo[axis]);
     let axis = (1..3).fold(0, |longest, axis| if length(axis) > length(longest) { axis } else { longest });
     let middle = items.len() / 2;
     items.select_nth_unstable_by(middle, |a, b| {
-        centre(a)[axis].total_cmp(&centre(b)[axis]).then(a.index.cmp(&b.index))
+        a.centre()[axis].total_cmp(&b.centre()[axis]).then(a.index().cmp(&b.index()))
     });
     middle
 }
 
-/// A plane between two bins, and the expected cost of splitting there in ray–triangle tests.
+/// A plane between two bins of an axis, and the expected cost of splitting there in ray–triangle tests.
 struct Plane {
     bins: Bins,
+    axis: usize,
     /// Items of this bin and above go right.
     bin: usize,
     cost: f64,
 }
 
-/// Equal bins over the centres' extent along one axis.
-#[derive(Clone, Copy)]
-struct Bins {
-    axis: usize,
-    origin: f32,
-    scale: f32,
-}
-
-impl Bins {
-    /// `None` where all centres are (nearly) equal on this axis.
-    fn new(axis: usize, centres: &Aabb) -> Option<Self> {
-        let origin = centres.lo[axis];
-        let scale = BINS as f32 / (centres.hi[axis] - origin);
-        (scale.is_normal() && centres.hi[axis] > origin).then_some(Self { axis, origin, scale })
-    }
-
-    fn index(&self, item: &Item) -> usize {
-        (((centre(item)[self.axis] - self.origin) * self.scale) as usize).min(BINS - 1)
-    }
-}
-
 /// The cheapest plane by the surface area heuristic, if any separates the items.
-fn best_plane(items: &[Item], centres: &Aabb) -> Option<Plane> {
-    let whole = items.iter().fold(Aabb::EMPTY, |aabb, item| aabb.union(&item.aabb)).half_area();
-    (0..3)
-        .filter_map(|axis| Bins::new(axis, centres))
-        .filter_map(|bins| cheapest_of(items, bins, whole))
-        .min_by(|a, b| a.cost.total_cmp(&b.cost))
+fn best_plane(items: &[Item], whole: &Extent, centres: &Extent, gathered: &mut Gathered) -> Option<Plane> {
+    let bins = Bins::new(items.len(), centres);
+    gathered.fill(items, &bins);
+    let (bin, axis, hits) = (0..3)
+        .filter(|&axis| bins.scale[axis] > 0.0)
+        .filter_map(|axis| {
+            let (bin, hits) = cheapest_of(&gathered.extents[axis], &gathered.counts[axis], bins.count)?;
+            Some((bin, axis, hits))
+        })
+        .min_by(|a, b| a.2.total_cmp(&b.2))?;
+    let whole = whole.half_area();
+    let cost = NODE_COST + if whole > 0.0 { hits / whole } else { 0.0 };
+    Some(Plane { bins, axis, bin, cost })
 }
 
-/// The cheapest plane of one axis.
-fn cheapest_of(items: &[Item], bins: Bins, whole: f64) -> Option<Plane> {
-    // Gather boxes and counts.
-    let mut boxes = [Aabb::EMPTY; BINS];
-    let mut counts = [0_usize; BINS];
-    for item in items {
-        let bin = bins.index(item);
-        boxes[bin] = boxes[bin].union(&item.aabb);
-        counts[bin] += 1;
-    }
+/// The cheapest plane of one axis: its bin, and the sum of both sides' areas times their items.
+fn cheapest_of(extents: &[Extent; BINS], counts: &[u32; BINS], bins: usize) -> Option<(usize, f64)> {
     // Sweep from the right for what lies above each plane …
     let mut above = [(0.0, 0); BINS];
-    let mut running = (Aabb::EMPTY, 0);
-    for bin in (1..BINS).rev() {
-        running = (running.0.union(&boxes[bin]), running.1 + counts[bin]);
+    let mut running = (Extent::EMPTY, 0);
+    for bin in (1..bins).rev() {
+        running = (running.0.union(extents[bin]), running.1 + counts[bin]);
         above[bin] = (running.0.half_area(), running.1);
     }
     // … and from the left for what lies below.
-    let mut best: Option<Plane> = None;
-    let mut running = (Aabb::EMPTY, 0);
-    for bin in 1..BINS {
-        running = (running.0.union(&boxes[bin - 1]), running.1 + counts[bin - 1]);
+    let mut best: Option<(usize, f64)> = None;
+    let mut running = (Extent::EMPTY, 0);
+    for bin in 1..bins {
+        running = (running.0.union(extents[bin - 1]), running.1 + counts[bin - 1]);
         let (area, count) = above[bin];
         if running.1 == 0 || count == 0 {
             continue;
         }
-        let hits = running.0.half_area() * running.1 as f64 + area * count as f64;
-        let cost = NODE_COST + if whole > 0.0 { hits / whole } else { 0.0 };
-        if best.as_ref().is_none_or(|best| cost < best.cost) {
-            best = Some(Plane { bins, bin, cost });
+        let hits = running.0.half_area() * f64::from(running.1) + area * f64::from(count);
+        if best.is_none_or(|best| hits < best.1) {
+            best = Some((bin, hits));
         }
     }
     best
@@ -178,7 +173,7 @@ fn cheapest_of(items: &[Item], bins: Bins, whole: f64) -> Option<Plane> {
 fn split_at_plane(items: &mut [Item], plane: &Plane) -> usize {
     let mut middle = 0;
     for index in 0..items.len() {
-        if plane.bins.index(&items[index]) < plane.bin {
+        if plane.bins.of(&items[index])[plane.axis] < plane.bin {
             items.swap(middle, index);
             middle += 1;
         }
@@ -186,7 +181,106 @@ fn split_at_plane(items: &mut [Item], plane: &Plane) -> usize {
     middle
 }
 
-/// The centre of an item's box. Halved first, so that the sum cannot overflow.
-fn centre(item: &Item) -> [f32; 3] {
-    std::array::from_fn(|axis| item.aabb.lo[axis] * 0.5 + item.aabb.hi[axis] * 0.5)
+/// Equal bins over the centres' extent along each axis.
+#[derive(Clone, Copy)]
+struct Bins {
+    count: usize,
+    origin: Vec4,
+    /// 0 on an axis where all centres are (nearly) equal.
+    scale: Vec4,
+}
+
+impl Bins {
+    fn new(items: usize, centres: &Extent) -> Self {
+        let count = (LEAST_BINS + items / ITEMS_A_BIN).min(BINS);
+        let scale = |axis: usize| {
+            let scale = count as f32 / (centres.hi[axis] - centres.lo[axis]);
+            if scale.is_normal() && centres.hi[axis] > centres.lo[axis] { scale } else { 0.0 }
+        };
+        Self { count, origin: centres.lo, scale: Vec4::new(scale(0), scale(1), scale(2), 0.0) }
+    }
+
+    /// An item's bin on each axis.
+    #[inline(always)]
+    fn of(&self, item: &Item) -> [usize; 3] {
+        let [x, y, z, _] = ((item.centre() - self.origin) * self.scale).to_array();
+        [x, y, z].map(|x| (x as i32 as usize).min(self.count - 1))
+    }
+}
+
+/// What lies in each bin of each axis.
+struct Gathered {
+    extents: [[Extent; BINS]; 3],
+    counts: [[u32; BINS]; 3],
+}
+
+impl Gathered {
+    fn new() -> Self {
+        Self { extents: [[Extent::EMPTY; BINS]; 3], counts: [[0; BINS]; 3] }
+    }
+
+    fn fill(&mut self, items: &[Item], bins: &Bins) {
+        for axis in 0..3 {
+            self.extents[axis][..bins.count].fill(Extent::EMPTY);
+            self.counts[axis][..bins.count].fill(0);
+        }
+        for item in items {
+            for (axis, bin) in bins.of(item).into_iter().enumerate() {
+                let extent = &mut self.extents[axis][bin];
+                *extent = extent.union(item.extent);
+                self.counts[axis][bin] += 1;
+            }
+        }
+    }
+}
+
+/// A triangle as the builder sees it.
+#[derive(Debug, Clone, Copy)]
+struct Item {
+    /// The fourth lane of `lo` holds the triangle's index.
+    extent: Extent,
+}
+
+impl Item {
+    /// Added to an index, so that its bits are no subnormal number, with which processors take their time.
+    const NORMAL: u32 = 1 << 30;
+
+    fn new(triangle: &Triangle, index: u32) -> Self {
+        let [a, b, c] = [triangle.v0, triangle.v1, triangle.v2].map(|[x, y, z]| Vec4::new(x, y, z, 0.0));
+        let lo = a.min(b).min(c);
+        let tag = f32::from_bits(index + Self::NORMAL);
+        Self { extent: Extent { lo: Vec4::new(lo.x, lo.y, lo.z, tag), hi: a.max(b).max(c) } }
+    }
+
+    fn index(&self) -> u32 {
+        self.extent.lo.w.to_bits() - Self::NORMAL
+    }
+
+    /// The centre of its box. Halved first, so that the sum cannot overflow.
+    #[inline(always)]
+    fn centre(&self) -> Vec4 {
+        self.extent.lo * 0.5 + self.extent.hi * 0.5
+    }
+}
+
+/// A box in three of four lanes.
+#[derive(Debug, Clone, Copy)]
+struct Extent {
+    lo: Vec4,
+    hi: Vec4,
+}
+
+impl Extent {
+    const EMPTY: Self = Self { lo: Vec4::MAX, hi: Vec4::MIN };
+
+    #[inline(always)]
+    fn union(self, other: Self) -> Self {
+        Self { lo: self.lo.min(other.lo), hi: self.hi.max(other.hi) }
+    }
+
+    /// Half the surface area, in f64: it overflows f32 long before coordinates do. 0 where empty.
+    fn half_area(&self) -> f64 {
+        let size = self.hi.as_dvec4() - self.lo.as_dvec4();
+        if size.x < 0.0 { 0.0 } else { size.x * size.y + size.y * size.z + size.z * size.x }
+    }
 }

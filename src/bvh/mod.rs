@@ -4,18 +4,26 @@
 //! and takes their boxes from the triangles themselves, so that every box is the exact least and greatest
 //! coordinate of what lies below it, whichever builder was at work. The traversal widens the boxes; the
 //! data hold no padding.
+//!
+//! [`Collapse`] makes wide nodes of binary ones; [`pack`] writes those that adapters traverse.
 
 mod aabb;
-mod agglomerative;
 mod binned;
 mod build;
 mod check;
+mod collapse;
 mod encode;
+mod pack;
+mod reinsertion;
+mod slots;
 mod stats;
+mod testing;
 mod tree;
 
 pub use build::{Bvh, BvhError, Preset, build};
 pub use check::{CheckError, check};
+pub use collapse::{Collapse, LeafRule, Part, WIDTH};
+pub use pack::{PackedBvh, pack};
 pub use stats::Statistics;
 
 /// Triangles in a leaf, at most.

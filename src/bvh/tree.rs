@@ -1,7 +1,5 @@
 //! What a builder returns: a binary tree over triangle indices, without boxes.
 
-use super::aabb::Aabb;
-
 /// One node of a [`Tree`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Branch {
@@ -20,8 +18,8 @@ pub(super) struct Tree {
 }
 
 impl Tree {
-    /// Nodes with children on the longest path from the root. Counts without recursion, since an
-    /// agglomerative builder may return a tree of any depth.
+    /// Nodes with children on the longest path from the root. Counts without recursion, since
+    /// reinsertion may return a tree of any depth.
     pub(super) fn depth(&self) -> u32 {
         let mut deepest = 0;
         let mut stack = vec![(0, 1)];
@@ -34,11 +32,4 @@ impl Tree {
         }
         deepest
     }
-}
-
-/// A triangle as builders see it.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Item {
-    pub(super) aabb: Aabb,
-    pub(super) index: u32,
 }

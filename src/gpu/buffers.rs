@@ -7,7 +7,8 @@ use bytemuck::{NoUninit, Zeroable, bytes_of, cast_slice};
 use super::GpuError;
 use super::context::Context;
 use super::pipeline::{FRAME, SCENE, WRITTEN, bind_group_layout};
-use crate::layout::{FlatScene, View};
+use crate::bvh;
+use crate::layout::{FlatScene, Triangle, View};
 
 /// Storage buffers that the host fills.
 const STORED: wgpu::BufferUsages = wgpu::BufferUsages::STORAGE.union(wgpu::BufferUsages::COPY_DST);
@@ -19,6 +20,8 @@ pub(super) struct SceneBuffers {
     arrays: Vec<wgpu::Buffer>,
     /// The view, then the lights.
     frame: wgpu::Buffer,
+    /// Which of the scene's triangles stands at each place.
+    pub(super) order: Vec<u32>,
 }
 
 impl SceneBuffers {
@@ -27,9 +30,12 @@ impl SceneBuffers {
     /// # Errors
     /// [`GpuError::TooLarge`] names the array, its size and the limit.
     pub(super) fn new(context: &Context, scene: &FlatScene) -> Result<Self, GpuError> {
+        let packed = bvh::pack(&scene.nodes, &scene.triangles);
+        let triangles: Vec<Triangle> =
+            packed.order.iter().map(|&index| scene.triangles[index as usize]).collect();
         let arrays: [(_, Cow<'_, [u8]>); SCENE as usize] = [
-            ("the tree of boxes", bytes(&scene.nodes)),
-            ("the triangles", bytes(&scene.triangles)),
+            ("the tree of boxes", bytes(&packed.nodes)),
+            ("the triangles", bytes(&triangles)),
             ("the triangles' attributes", bytes(&scene.attributes)),
             ("the triangles' corners", bytes(&scene.corners)),
             ("the materials", bytes(&scene.materials)),
@@ -49,7 +55,7 @@ impl SceneBuffers {
         context.check_size("the lights", frame_size as u64)?;
         let frame = context.buffer("the view and the lights", frame_size as u64, STORED)?;
         context.queue.write_buffer(&frame, size_of::<View>() as u64, &lights);
-        Ok(Self { layout: bind_group_layout(&context.device), arrays, frame })
+        Ok(Self { layout: bind_group_layout(&context.device), arrays, frame, order: packed.order })
     }
 
     /// Trace by this view from the next submission on.

@@ -68,6 +68,12 @@ impl Prober {
         Ok(())
     }
 
+    /// Which of the scene's triangles stands at each place of the adapter's.
+    #[must_use]
+    pub fn order(&self) -> &[u32] {
+        &self.scene.order
+    }
+
     /// Run the entry point `entry` of the file `root` over records of `stride` words, in place.
     ///
     /// A rest of `records` shorter than `stride` is left alone.

@@ -35,4 +35,5 @@ pub const SOURCES: &[Source<'static>] = sources! {
     "texture"
     "triangle"
     "whitted"
+    "wide"
 };

@@ -31,6 +31,28 @@ pub struct Node {
     pub b_count: u32,
 }
 
+/// Up to eight children with their boxes in bytes, as adapters traverse them (Ylitie, Karras, Laine 2017, "Efficient
+/// incoherent ray traversal on GPUs through compressed wide BVHs", section 3.2).
+///
+/// A plane lies at `origin` + byte · scale. A child's number tells on which side it lies along each axis, so that a ray's
+/// octant gives the order of visits. Inner children stand in a row by number, and so do the leaves' triangles.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct WideNode {
+    /// Least corner of all boxes.
+    pub origin: [f32; 3],
+    /// Bytes: the scales' exponents on x, y and z, as f32 has them; a bit for each inner child.
+    pub scales: u32,
+    /// Index of the first inner child.
+    pub first_child: u32,
+    /// Index of the leaves' first triangle.
+    pub first_triangle: u32,
+    /// A byte for each child: number of triangles · 32 + number of the first; 0 for an inner child or none.
+    pub leaves: [u32; 2],
+    /// For x, y and z, a byte for each child: eight lower planes, eight upper ones.
+    pub planes: [[u32; 4]; 3],
+}
+
 /// A triangle in world space, in the order of the BVH's leaves.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]

@@ -68,7 +68,7 @@ impl Device for CpuDevice {
     }
 
     fn leave(&mut self, stage: &Stage, rays: &[Leave]) -> Answered<Left> {
-        let (world, places) = (self.world(stage), stage.places());
+        let (world, places) = (self.world(stage), stage.places(0..stage.flat.triangles.len() as u32));
         let place = |ray: &Leave| places[ray.id as usize];
         Ok(match self.precision {
             Precision::F32 => {

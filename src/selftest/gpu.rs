@@ -150,7 +150,7 @@ impl Device for GpuDevice {
         self.prober.show(&stage.flat, &stage.view)?;
         let mut answers = Vec::with_capacity(rays.len());
         let name = self.adapter().name.clone();
-        let places = stage.places();
+        let places = stage.places(self.prober.order().iter().copied());
         let inputs = |ray: &Leave, words: &mut Vec<u32>| {
             words.extend([places[ray.id as usize], ray.id]);
             words.extend(ray.barycentrics.map(f32::to_bits));

@@ -35,12 +35,13 @@ impl Stage {
         Ok(Self { flat, view, settings })
     }
 
-    /// Where each triangle lies in [`FlatScene::triangles`], by primitive id.
+    /// At which place each triangle stands, by primitive id, where they stand in this order of
+    /// [`FlatScene::triangles`].
     #[must_use]
-    pub fn places(&self) -> Vec<u32> {
+    pub fn places(&self, order: impl IntoIterator<Item = u32>) -> Vec<u32> {
         let mut places = vec![NONE; self.flat.attributes.len()];
-        for (index, triangle) in self.flat.triangles.iter().enumerate() {
-            places[triangle.id as usize] = index as u32;
+        for (place, index) in (0..).zip(order) {
+            places[self.flat.triangles[index as usize].id as usize] = place;
         }
         places
     }

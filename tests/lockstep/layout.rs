@@ -6,8 +6,8 @@ use bytemuck::Zeroable;
 use naga::{ArraySize, Module, Scalar, ScalarKind, StructMember, Type, TypeInner, VectorSize};
 use snellius::gpu::{SOURCES, Source, assemble};
 use snellius::layout::{
-    Aov, Attribute, Corner, FilmHead, Light, Material, Node, Statistics, Texel, Tile, TreeNode, Triangle,
-    View,
+    Aov, Attribute, Corner, FilmHead, Light, Material, Statistics, Texel, Tile, TreeNode, Triangle, View,
+    WideNode,
 };
 
 use super::planted::Planted;
@@ -69,7 +69,7 @@ fn rust_records() -> Vec<Record> {
         ],
     };
     vec![
-        record!("Node", Node { a_lo, a_first, a_hi, a_count, b_lo, b_first, b_hi, b_count }),
+        record!("WideNode", WideNode { origin, scales, first_child, first_triangle, leaves, planes }),
         record!("Triangle", Triangle { v0, id, v1, reserved1, v2, reserved2 }),
         record!("Attribute", Attribute { normal, material, body, other, corners, reserved }),
         record!("Corner", Corner { normal, u, reserved, v }),

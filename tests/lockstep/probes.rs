@@ -64,6 +64,16 @@ const COVERED: &[(&str, &str)] = &[
     ("triangle_slabs", "intersect"),
     ("upper", "power"),
     ("wrap_index", "texture_color"),
+    ("sight_of", "intersect"),
+    ("whole_tree", "intersect"),
+    ("is_done", "intersect"),
+    ("visit", "intersect"),
+    ("meet", "intersect"),
+    ("distances", "intersect"),
+    ("bytes_of", "intersect"),
+    ("bits", "intersect"),
+    ("leaf_bits", "intersect"),
+    ("ranks", "intersect"),
 ];
 
 #[test]

@@ -23,6 +23,10 @@ const ALONE: &[(&str, &str)] = &[
     ("render", "the entry point: src/cpu is its twin"),
     ("sift", "the entry points between rounds: src/cpu is their twin"),
     ("vector", "WGSL has vectors"),
+    (
+        "wide",
+        "src/bvh/pack.rs writes the tree, and src/kernel/bvh.rs goes through another, which never shows",
+    ),
     ("world", "shaders/bindings is its twin"),
     ("mod", "lists the files"),
 ];

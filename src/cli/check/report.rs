@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::super::prepare::Prepared;
+use crate::bvh;
 use crate::layout::{self, Aov, Effects, FlatScene, Settings, Texel};
 use crate::scene::{self, Background, Falloff, Scene};
 
@@ -167,8 +168,9 @@ impl Number {
 /// Bytes of every storage buffer; the film's for the scene's own picture size, AOVs only where asked for.
 fn buffers(flat: &FlatScene, [width, height]: [u32; 2]) -> Vec<Buffer> {
     let pixels = u64::from(width) * u64::from(height);
+    let packed = bvh::pack(&flat.nodes, &flat.triangles);
     let sized = [
-        ("nodes", size_of_val(flat.nodes.as_slice()) as u64),
+        ("nodes", size_of_val(packed.nodes.as_slice()) as u64),
         ("triangles", size_of_val(flat.triangles.as_slice()) as u64),
         ("attributes", size_of_val(flat.attributes.as_slice()) as u64),
         ("corners", size_of_val(flat.corners.as_slice()) as u64),

@@ -1,9 +1,8 @@
 //! The records of the wide tree.
 
-use crate::layout::Triangle;
-
 /// Children of a node, and triangles of a leaf, at most: the lanes of a vector.
-pub(super) const WIDTH: usize = 8;
+pub(super) use crate::bvh::WIDTH;
+use crate::layout::Triangle;
 
 /// Marks a child that is a leaf; below it the leaf's index and how many triangles it holds, less one.
 const LEAF: u32 = 1 << 31;

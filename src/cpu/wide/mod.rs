@@ -15,7 +15,6 @@
 
 mod beam;
 mod bests;
-mod collapse;
 mod layout;
 mod packet;
 mod ray;

@@ -1,9 +1,12 @@
 //! The wide tree.
 
-use super::collapse::{Collapse, Part};
 use super::layout::{Child, Leaf, Node, WIDTH};
+use crate::bvh::{Collapse, LeafRule, Part};
 use crate::layout::{self, Triangle};
 use rayon::prelude::*;
+
+/// A leaf's triangles are tested together, however many they are, at little more than what a node's boxes cost.
+const LEAVES: LeafRule = LeafRule { most: WIDTH as u32, cost: |_| 1.2 };
 
 /// Nodes of eight children over leaves of up to eight triangles.
 #[derive(Debug, Clone)]
@@ -23,7 +26,7 @@ impl Tree {
 
     /// Collapse a binary tree, each of whose subtrees holds triangles that stand in a row.
     pub(super) fn new(nodes: &[layout::Node], triangles: &[Triangle]) -> Self {
-        let mut writer = Writer { collapse: Collapse::new(nodes), nodes: vec![], rows: vec![] };
+        let mut writer = Writer { collapse: Collapse::new(nodes, LEAVES), nodes: vec![], rows: vec![] };
         writer.node(0);
         let Writer { nodes: wide, rows, .. } = writer;
         let leaf = |&(first, count): &(u32, u32)| Leaf::new(&triangles[first as usize..][..count as usize]);

@@ -9,6 +9,7 @@ use bytemuck::Zeroable;
 
 use super::super::testing::{Subject, assert_same, find, on_each};
 use super::*;
+use crate::bvh;
 use crate::layout::{Light, Precision, Texel};
 
 impl GpuRenderer {
@@ -116,7 +117,8 @@ fn a_scene_beyond_the_limit_is_refused_with_both_figures() {
     let mut context = Context::new(&options).unwrap();
     context.adapter.max_storage_binding = 100;
     let error = SceneBuffers::new(&context, &subject.scene).map(|_| ()).unwrap_err();
-    let needed = size_of_val(subject.scene.nodes.as_slice()) as u64;
+    let packed = bvh::pack(&subject.scene.nodes, &subject.scene.triangles);
+    let needed = size_of_val(packed.nodes.as_slice()) as u64;
     let GpuError::TooLarge { needed: stated, limit: 100, .. } = error else { panic!("{error}") };
     assert_eq!(stated, needed);
 }

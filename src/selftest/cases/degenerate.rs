@@ -1,9 +1,10 @@
 //! T15: triangles that are hardly any.
 //!
 //! With the edge functions of relative error e (three roundoffs each: shear, product, difference) a barycentric weight of a
-//! triangle of height h and length L is off by about e·L²/(L·h): the point slides along the triangle by that part of its
-//! length, so that it stays on the triangle, but leaves the ray by up to aspect·L·3 roundoffs. Bound: 16 of them, with the
-//! distance for the length where that is greater.
+//! triangle that is seen with height h and length L is off by about e·L²/(L·h): the point slides along the triangle by that
+//! part of its length, so that it stays on the triangle, but leaves the ray by up to aspect·L·3 roundoffs. Bound: 4 of
+//! them, with the distance for the length where that is greater. The aspect is that of the triangle as the ray sees it: one
+//! that is met at a grazing angle is foreshortened, and hides more of its height than of its length.
 
 use glam::DVec3;
 
@@ -23,12 +24,12 @@ pub(super) const T15: Case = Case {
 /// Distance from which rays are aimed.
 const DISTANCE: f64 = 4.0;
 /// Roundoffs of aspect times length by which a point may be off its ray.
-const ROUNDOFFS: f64 = 16.0;
+const ROUNDOFFS: f64 = 4.0;
 
-/// A triangle, and how many times it is as long as high.
+/// A triangle.
 struct Sliver {
     corners: [DVec3; 3],
-    aspect: f64,
+    has_area: bool,
 }
 
 fn degenerate(device: &mut dyn Device, effort: Effort) -> Result<Vec<Finding>, DeviceError> {
@@ -47,8 +48,8 @@ fn degenerate(device: &mut dyn Device, effort: Effort) -> Result<Vec<Finding>, D
             tried += 1;
             if walked.first != NONE {
                 met += 1;
-                ghosts += usize::from(sliver.aspect.is_infinite());
-                off = off.max(distance_off(ray, &walked) / (roundoff * sliver.aspect * DISTANCE));
+                ghosts += usize::from(!sliver.has_area);
+                off = off.max(distance_off(ray, &walked) / (roundoff * sliver.aspect(ray) * DISTANCE));
             }
         }
     }
@@ -66,10 +67,13 @@ fn degenerate(device: &mut dyn Device, effort: Effort) -> Result<Vec<Finding>, D
 
 /// How far the hit point is off the ray.
 fn distance_off(ray: &Walk, walked: &Walked) -> f64 {
-    let widen = |v: [f32; 3]| glam::Vec3::from(v).as_dvec3();
     let from_start = widen(walked.point) - widen(ray.origin);
     let direction = widen(ray.direction).normalize();
     (from_start - direction * from_start.dot(direction)).length()
+}
+
+fn widen(v: [f32; 3]) -> DVec3 {
+    glam::Vec3::from(v).as_dvec3()
 }
 
 /// The slivers far from each other, so that each ray has one to meet.
@@ -94,11 +98,15 @@ impl Sliver {
             2 => round(a + across * 1e-6),
             _ => round(a + along * random.fraction() + across * 10f64.powf(random.between(-7.0, -3.0))),
         };
-        let doubled_area = (b - a).cross(c - a).length();
-        Self {
-            corners: [a, b, c],
-            aspect: if kind == 1 { f64::INFINITY } else { (b - a).length_squared() / doubled_area },
-        }
+        Self { corners: [a, b, c], has_area: kind != 1 && (b - a).cross(c - a) != DVec3::ZERO }
+    }
+
+    /// How many times it is as long as high, seen along a ray.
+    fn aspect(&self, ray: &Walk) -> f64 {
+        let direction = widen(ray.direction).normalize();
+        let [a, b, c] = self.corners.map(|corner| corner - direction * corner.dot(direction));
+        let length = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
+        length / (b - a).cross(c - a).length()
     }
 
     /// A ray at a point of it.

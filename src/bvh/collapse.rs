@@ -2,22 +2,33 @@
 //! surface area heuristic, found from the leaves up (Ylitie, Karras, Laine 2017, "Efficient incoherent ray traversal on
 //! GPUs through compressed wide BVHs", section 3.1).
 
-use super::layout::WIDTH;
 use crate::layout::Node;
 
-/// What testing a leaf's triangles costs, however many they are, against a node's boxes.
-const LEAF_COST: f32 = 1.2;
+/// Children of a wide node, at most.
+pub const WIDTH: usize = 8;
+
+/// What a traversal's leaves are like.
+#[derive(Debug, Clone, Copy)]
+pub struct LeafRule {
+    /// Triangles, at most.
+    pub most: u32,
+    /// What testing so many triangles costs, against visiting a node.
+    pub cost: fn(u32) -> f32,
+}
 
 /// A child of a wide node.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Part {
-    pub(super) lo: [f32; 3],
-    pub(super) hi: [f32; 3],
+pub struct Part {
+    /// Least corner of its box.
+    pub lo: [f32; 3],
+    /// Greatest corner.
+    pub hi: [f32; 3],
     /// The binary node that becomes a wide one; none for a leaf.
-    pub(super) inner: Option<u32>,
-    /// Its triangles.
-    pub(super) first: u32,
-    pub(super) count: u32,
+    pub inner: Option<u32>,
+    /// The first of its triangles.
+    pub first: u32,
+    /// How many there are.
+    pub count: u32,
 }
 
 /// A part of the binary tree: a node, or a leaf below one.
@@ -45,15 +56,18 @@ struct Choice {
 }
 
 /// The choices for every binary node.
-pub(super) struct Collapse<'a> {
+pub struct Collapse<'a> {
     nodes: &'a [Node],
+    leaves: LeafRule,
     choices: Vec<Choice>,
 }
 
 impl<'a> Collapse<'a> {
-    pub(super) fn new(nodes: &'a [Node]) -> Self {
+    /// Choose for a tree, each of whose leaves is within the rule.
+    #[must_use]
+    pub fn new(nodes: &'a [Node], leaves: LeafRule) -> Self {
         let none = Choice { costs: [0.0; WIDTH - 1], splits: [0; WIDTH], is_leaf: false, first: 0, count: 0 };
-        let mut collapse = Self { nodes, choices: vec![none; nodes.len()] };
+        let mut collapse = Self { nodes, leaves, choices: vec![none; nodes.len()] };
         // A node stands before what is below it.
         for index in (0..nodes.len()).rev() {
             collapse.choices[index] = collapse.choose(index as u32);
@@ -62,7 +76,8 @@ impl<'a> Collapse<'a> {
     }
 
     /// The children of the wide node that stands for a binary one, and how many there are.
-    pub(super) fn children(&self, node: u32) -> ([Part; WIDTH], usize) {
+    #[must_use]
+    pub fn children(&self, node: u32) -> ([Part; WIDTH], usize) {
         let nothing = Part { lo: [0.0; 3], hi: [0.0; 3], inner: None, first: 0, count: 0 };
         let (mut parts, mut count) = ([nothing; WIDTH], 0);
         self.split(node, WIDTH, &mut |part| {
@@ -124,8 +139,9 @@ impl<'a> Collapse<'a> {
             std::array::from_fn(|axis| a.hi[axis].max(b.hi[axis])),
         );
         let (own, own_split) = split(WIDTH);
-        let is_leaf = count as usize <= WIDTH && area * LEAF_COST <= area + own;
-        let mut costs = [if is_leaf { area * LEAF_COST } else { area + own }; WIDTH - 1];
+        let as_leaf = area * (self.leaves.cost)(count);
+        let is_leaf = count <= self.leaves.most && as_leaf <= area + own;
+        let mut costs = [if is_leaf { as_leaf } else { area + own }; WIDTH - 1];
         let mut splits = [0; WIDTH];
         splits[WIDTH - 1] = own_split;
         for lanes in 2..WIDTH {
@@ -141,7 +157,7 @@ impl<'a> Collapse<'a> {
     fn costs(&self, part: &Subtree) -> [f32; WIDTH - 1] {
         match part.node {
             Some(node) => self.choices[node as usize].costs,
-            None => [half_area(part.lo, part.hi) * LEAF_COST; WIDTH - 1],
+            None => [half_area(part.lo, part.hi) * (self.leaves.cost)(part.count); WIDTH - 1],
         }
     }
 }
