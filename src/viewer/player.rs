@@ -10,8 +10,8 @@ use super::timings::Stopwatch;
 
 /// How long an event's effect may take.
 const PATIENCE: Duration = Duration::from_secs(180);
-/// How long a message may take.
-const TOAST_PATIENCE: Duration = Duration::from_secs(10);
+/// How long a message may take: a shader may have to be compiled for it.
+const TOAST_PATIENCE: Duration = Duration::from_secs(60);
 
 /// A script in play.
 pub(super) struct Player {

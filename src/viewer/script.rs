@@ -21,7 +21,7 @@
 //! turntable N             write so many pictures from round the pivot
 //! wait rest               until the picture is complete
 //! wait MS                 so many milliseconds
-//! expect toast TEXT       a message that holds the text is shown within ten seconds
+//! expect toast TEXT       a message that holds the text is shown within a minute
 //! expect size W H         of the picture, complete
 //! expect backend cpu|gpu
 //! expect tree TEXT        a line of the outline of the clicked pixel's rays holds the text

@@ -244,7 +244,7 @@ fn changed_shaders_are_compiled_and_broken_ones_told_with_their_line() {
                   key Escape
                   screenshot first.png
                   copy broken.wgsl shaders/background.wgsl
-                  expect toast shaders/background.wgsl:19:
+                  expect toast shaders/background.wgsl:18:
                   wait rest
                   key Escape
                   screenshot kept.png
