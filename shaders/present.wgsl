@@ -23,16 +23,15 @@ struct Reel {
 
 // What is shown, and where.
 struct Look {
-    fine: Reel,
-    coarse: Reel,
+    film: Reel,
     // The CPU's picture.
     reference: Reel,
-    // Left, top, width and height of the picture in pixels of the window.
+    // Left, top, width and height of the picture in pixels of the target.
     area: vec4f,
-    // Left of this column of the picture the first view is shown, right of it the second.
-    wipe: f32,
     gain: f32,
-    views: vec2u,
+    // A number of AovKind from 1, or DIFFERENCE.
+    kind: u32,
+    reserved: vec2u,
 }
 
 // The greatest values of a film; as bits where they are floats, none of which is negative.
@@ -40,13 +39,16 @@ struct Ranges {
     near: u32, far: u32, rays: u32, samples: u32, dropped: u32, bound: u32, reserved: vec2u,
 }
 
-@group(0) @binding(0) var<storage, read> fine: array<u32>;
-@group(0) @binding(1) var<storage, read> coarse: array<u32>;
+@group(0) @binding(0) var<storage, read> words: array<u32>;
+@group(0) @binding(1) var<storage, read> reference: array<u32>;
 @group(0) @binding(2) var<storage, read> steps: array<f32, 256>;
-@group(0) @binding(3) var<uniform> look: Look;
+// No uniform: lavapipe folds those that decide branches into a copy of the shader, compiled anew at every draw.
+@group(0) @binding(3) var<storage, read> look: Look;
 @group(0) @binding(4) var<storage, read> ranges: Ranges;
-@group(0) @binding(6) var<storage, read> reference: array<u32>;
 @group(0) @binding(5) var<storage, read_write> measured: array<atomic<u32>, 8>;
+// A film of fewer pixels than the picture has on the window, developed.
+@group(0) @binding(6) var small: texture_2d<f32>;
+@group(0) @binding(7) var smoothly: sampler;
 
 // The view after those of AovKind.
 const DIFFERENCE: u32 = 11u;
@@ -59,48 +61,38 @@ fn cover(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
     return vec4f(f32(index & 1u) * 4.0 - 1.0, f32(index >> 1u) * 4.0 - 1.0, 0.0, 1.0);
 }
 
+// What the camera sees, pixel by pixel.
 @fragment
-fn present(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    let place = position.xy - look.area.xy;
-    if abs(place.x - look.wipe) < 1.0 {
-        return vec4f(1.0);
-    }
-    let kind = select(look.views.y, look.views.x, place.x < look.wipe);
-    if kind == 0u {
-        return vec4f(develop(radiance(place)), 1.0);
-    }
-    return vec4f(false_colour(kind, place), 1.0);
+fn beauty(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    return vec4f(develop(mean(pixel_at(position.xy - look.area.xy))), 1.0);
 }
 
-fn reel(side: u32) -> Reel {
-    if side == 0u {
-        return look.fine;
-    }
-    return look.coarse;
+// An auxiliary picture. An entry point of its own, since lavapipe runs both sides of every branch.
+@fragment
+fn false_colours(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    return vec4f(false_colour(pixel_at(position.xy - look.area.xy)), 1.0);
 }
 
-fn word(side: u32, index: u32) -> u32 {
-    if side == 0u {
-        return fine[index];
-    }
-    return coarse[index];
+// Between the pixels of a developed film.
+@fragment
+fn enlarge(@builtin(position) position: vec4f) -> @location(0) vec4f {
+    return textureSampleLevel(small, smoothly, (position.xy - look.area.xy) / look.area.zw, 0.0);
 }
 
-fn real(side: u32, index: u32) -> f32 {
-    return bitcast<f32>(word(side, index));
+fn real(index: u32) -> f32 {
+    return bitcast<f32>(words[index]);
 }
 
-// Samples of a pixel on a film.
-fn samples_of(film: Reel, pixel: vec2u) -> u32 {
-    let block = (pixel.y / BLOCK) * film.columns + pixel.x / BLOCK;
-    return film.passes + select(0u, 1u, block < film.blocks);
+// Samples of a pixel on the film.
+fn samples_of(pixel: vec2u) -> u32 {
+    let block = (pixel.y / BLOCK) * look.film.columns + pixel.x / BLOCK;
+    return look.film.passes + select(0u, 1u, block < look.film.blocks);
 }
 
 // The pixel under a place in the picture.
-fn pixel_at(film: Reel, place: vec2f) -> vec2u {
-    let size = vec2f(f32(film.width), f32(film.height));
-    let pixel = clamp(floor(place * size / look.area.zw), vec2f(0.0), size - 1.0);
-    return vec2u(pixel);
+fn pixel_at(place: vec2f) -> vec2u {
+    let size = vec2f(f32(look.film.width), f32(look.film.height));
+    return vec2u(clamp(floor(place * size / look.area.zw), vec2f(0.0), size - 1.0));
 }
 
 // First word of a pixel.
@@ -108,40 +100,12 @@ fn record(film: Reel, pixel: vec2u) -> u32 {
     return film.first_word + (pixel.y * film.width + pixel.x) * film.pixel_words;
 }
 
-// Which film has something to show at a place: the one in work where it has a sample, else the last finished one, 2 for none.
-fn side_at(place: vec2f) -> u32 {
-    if look.fine.width != 0u && samples_of(look.fine, pixel_at(look.fine, place)) > 0u {
-        return 0u;
-    }
-    return select(2u, 1u, look.coarse.width != 0u);
-}
-
-// Linear radiance at a place: a pixel's own where film and picture are of one size, else between four of them.
-fn radiance(place: vec2f) -> vec3f {
-    let side = side_at(place);
-    if side == 2u {
-        return vec3f(0.05);
-    }
-    let film = reel(side);
-    let size = vec2f(f32(film.width), f32(film.height));
-    if side == 0u || all(size == look.area.zw) {
-        return mean(side, film, pixel_at(film, place));
-    }
-    let at = clamp(place * size / look.area.zw - 0.5, vec2f(0.0), size - 1.0);
-    let low = vec2u(at);
-    let high = min(low + 1u, vec2u(film.width, film.height) - 1u);
-    let part = at - floor(at);
-    let upper = mix(mean(side, film, low), mean(side, film, vec2u(high.x, low.y)), part.x);
-    let lower = mix(mean(side, film, vec2u(low.x, high.y)), mean(side, film, high), part.x);
-    return mix(upper, lower, part.y);
-}
-
 // The mean of the samples that a pixel has: a finished film holds it, one in work their sum.
-fn mean(side: u32, film: Reel, pixel: vec2u) -> vec3f {
-    let at = record(film, pixel);
-    let sum = vec3f(real(side, at), real(side, at + 1u), real(side, at + 2u));
-    let samples = samples_of(film, pixel);
-    if samples == film.samples {
+fn mean(pixel: vec2u) -> vec3f {
+    let at = record(look.film, pixel);
+    let sum = vec3f(real(at), real(at + 1u), real(at + 2u));
+    let samples = samples_of(pixel);
+    if samples == look.film.samples {
         return sum;
     }
     return sum / f32(samples);
@@ -171,45 +135,41 @@ fn srgb(linear: f32) -> f32 {
 }
 
 // What AovKind::preview shows, in its order of kinds from 1.
-fn false_colour(kind: u32, place: vec2f) -> vec3f {
-    let side = side_at(place);
-    if side == 2u {
-        return vec3f(0.0);
-    }
-    let film = reel(side);
-    let pixel = pixel_at(film, place);
+fn false_colour(pixel: vec2u) -> vec3f {
+    let film = look.film;
+    let kind = look.kind;
     let at = record(film, pixel);
-    let samples = samples_of(film, pixel);
+    let samples = samples_of(pixel);
     // Weights and bounds are sums until the film is finished.
     let share = select(1.0 / f32(samples), 1.0, samples == film.samples);
     if kind <= 4u {
-        return first_hit(kind, side, film, at);
+        return first_hit(kind, film, at);
     }
     if kind == DIFFERENCE {
-        return difference(side, film, pixel, at);
+        return difference(film, pixel, at);
     }
     switch kind {
-        case 5u: { return counts(word(side, at + 5u), ranges.rays); }
+        case 5u: { return counts(words[at + 5u], ranges.rays); }
         case 6u: {
             if film.statistics_at != 0u {
-                return counts(word(side, at + film.statistics_at + 4u), ranges.samples);
+                return counts(words[at + film.statistics_at + 4u], ranges.samples);
             }
             return counts(samples, max(ranges.samples, film.samples));
         }
-        case 7u: { return decades(real(side, at + 3u) * share, bitcast<f32>(ranges.dropped)); }
-        case 8u: { return decades(real(side, at + 4u) * share, bitcast<f32>(ranges.bound)); }
-        case 9u: { return palette(word(side, at + 6u)); }
-        default: { return palette(word(side, at + 7u)); }
+        case 7u: { return decades(real(at + 3u) * share, bitcast<f32>(ranges.dropped)); }
+        case 8u: { return decades(real(at + 4u) * share, bitcast<f32>(ranges.bound)); }
+        case 9u: { return palette(words[at + 6u]); }
+        default: { return palette(words[at + 7u]); }
     }
 }
 
 // Depth, normal, body or medium of the first hit; black where the film was traced without them, or nothing was met.
-fn first_hit(kind: u32, side: u32, film: Reel, at: u32) -> vec3f {
+fn first_hit(kind: u32, film: Reel, at: u32) -> vec3f {
     if film.aov_at == 0u {
         return vec3f(0.0);
     }
     let aov = at + film.aov_at;
-    let body = word(side, aov + 4u);
+    let body = words[aov + 4u];
     if body == NONE {
         return vec3f(0.0);
     }
@@ -217,14 +177,14 @@ fn first_hit(kind: u32, side: u32, film: Reel, at: u32) -> vec3f {
         case 1u: {
             let near = bitcast<f32>(ranges.near);
             let span = max(bitcast<f32>(ranges.far) - near, LEAST_NORMAL);
-            return vec3f(1.0 - 0.85 * (real(side, aov + 3u) - near) / span);
+            return vec3f(1.0 - 0.85 * (real(aov + 3u) - near) / span);
         }
         case 2u: {
-            return vec3f(real(side, aov), real(side, aov + 1u), real(side, aov + 2u)) * 0.5 + 0.5;
+            return vec3f(real(aov), real(aov + 1u), real(aov + 2u)) * 0.5 + 0.5;
         }
         case 3u: { return palette(body); }
         default: {
-            let medium = word(side, aov + 5u);
+            let medium = words[aov + 5u];
             if medium == 0u {
                 return vec3f(40.0 / 255.0);
             }
@@ -235,7 +195,7 @@ fn first_hit(kind: u32, side: u32, film: Reel, at: u32) -> vec3f {
 
 // Black where every bit of the radiance is that of the CPU's picture; dark grey where there is none. See
 // film::difference_preview.
-fn difference(side: u32, film: Reel, pixel: vec2u, at: u32) -> vec3f {
+fn difference(film: Reel, pixel: vec2u, at: u32) -> vec3f {
     if look.reference.width != film.width || look.reference.height != film.height {
         return vec3f(40.0 / 255.0);
     }
@@ -243,7 +203,7 @@ fn difference(side: u32, film: Reel, pixel: vec2u, at: u32) -> vec3f {
     var most = 0.0;
     var is_same = true;
     for (var channel = 0u; channel < 3u; channel++) {
-        let bits = word(side, at + channel);
+        let bits = words[at + channel];
         is_same = is_same && bits == reference[other + channel];
         most = max(most, abs(bitcast<f32>(bits) - bitcast<f32>(reference[other + channel])));
     }
@@ -289,22 +249,22 @@ fn palette(id: u32) -> vec3f {
 // The ranges of the finished film.
 @compute @workgroup_size(BLOCK, BLOCK)
 fn measure(@builtin(global_invocation_id) id: vec3u) {
-    let film = look.coarse;
+    let film = look.film;
     if id.x >= film.width || id.y >= film.height {
         return;
     }
     let at = record(film, id.xy);
-    atomicMax(&measured[2], coarse[at + 5u]);
-    atomicMax(&measured[4], finite(coarse[at + 3u]));
-    atomicMax(&measured[5], finite(coarse[at + 4u]));
+    atomicMax(&measured[2], words[at + 5u]);
+    atomicMax(&measured[4], finite(words[at + 3u]));
+    atomicMax(&measured[5], finite(words[at + 4u]));
     if film.statistics_at != 0u {
-        atomicMax(&measured[3], coarse[at + film.statistics_at + 4u]);
+        atomicMax(&measured[3], words[at + film.statistics_at + 4u]);
     } else {
         atomicMax(&measured[3], film.samples);
     }
-    if film.aov_at != 0u && coarse[at + film.aov_at + 4u] != NONE {
-        atomicMin(&measured[0], coarse[at + film.aov_at + 3u]);
-        atomicMax(&measured[1], coarse[at + film.aov_at + 3u]);
+    if film.aov_at != 0u && words[at + film.aov_at + 4u] != NONE {
+        atomicMin(&measured[0], words[at + film.aov_at + 3u]);
+        atomicMax(&measured[1], words[at + film.aov_at + 3u]);
     }
 }
 

@@ -26,7 +26,7 @@ pub use flip::flip;
 pub use frame::{Frame, Progress, RayCounts, Renderer, SampleCounts, TraceTimes};
 pub use load::{LoadError, LoadReason, load};
 pub use metadata::Metadata;
-pub use output::{Format, Output, OutputError, write_whole};
+pub use output::{Format, Output, OutputError, numbered, write_whole};
 pub use picture::{Channel, Picture, Samples};
 pub use preview::{Preview, difference_preview};
 pub use summary::{MeanMax, Summary};

@@ -154,6 +154,14 @@ fn folder_of(path: &Path) -> &Path {
     }
 }
 
+/// The name of one of many pictures: `ice.png` becomes `ice-007.png`.
+#[must_use]
+pub fn numbered(path: &Path, number: u32) -> PathBuf {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let extension = path.extension().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!("{stem}-{number:03}.{extension}"))
+}
+
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
@@ -218,5 +226,10 @@ mod tests {
         std::fs::write(&plain, "b").unwrap();
         let mode = |path| std::fs::metadata(path).unwrap().permissions().mode();
         assert_eq!(mode(&ours), mode(&plain));
+    }
+
+    #[test]
+    fn pictures_are_numbered_before_their_extension() {
+        assert_eq!(numbered(Path::new("a/ice.v2.png"), 7), Path::new("a/ice.v2-007.png"));
     }
 }

@@ -85,7 +85,12 @@ impl Context {
 
     /// Wait until all that was submitted is done.
     pub(super) fn wait(&self) -> Result<(), GpuError> {
-        let wait = wgpu::PollType::Wait { submission_index: None, timeout: Some(PATIENCE) };
+        self.wait_for(None)
+    }
+
+    /// Wait until a submission is done, or all of them.
+    pub(super) fn wait_for(&self, submission_index: Option<wgpu::SubmissionIndex>) -> Result<(), GpuError> {
+        let wait = wgpu::PollType::Wait { submission_index, timeout: Some(PATIENCE) };
         // wgpu panics when a device is lost while it is waited for; the callback has the reason.
         let waited = quiet::catch(|| self.device.poll(wait));
         self.check()?;

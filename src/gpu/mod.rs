@@ -53,7 +53,7 @@ pub use portions::Portions;
 pub use probe::Prober;
 pub use render::{GpuRenderer, InvocationMemory};
 pub use shared::SharedDevice;
-pub use sources::SOURCES;
+pub use sources::{SOURCES, sources_in};
 pub use spirv::write_spirv;
 pub use tree::GpuTree;
 pub use variant::Variant;

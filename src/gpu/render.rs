@@ -137,6 +137,30 @@ impl GpuRenderer {
         Ok(())
     }
 
+    /// The shader files that it traces by.
+    #[must_use]
+    pub fn sources(&self) -> &'static [Source<'static>] {
+        self.sources
+    }
+
+    /// Trace by other shader files from now on, once they are compiled for these settings; by those before where they
+    /// cannot be.
+    ///
+    /// # Errors
+    /// [`GpuError::Shader`] with file and line, [`GpuError::NoF64`], [`GpuError::Refused`], [`GpuError::DeviceLost`].
+    pub fn reassemble(
+        &mut self,
+        sources: &'static [Source<'static>],
+        settings: &Settings,
+    ) -> Result<(), GpuError> {
+        let pipelines = Pipelines::new(&self.context, &self.scene.layout, sources);
+        pipelines.compile(&self.variant(settings))?;
+        (self.sources, self.pipelines, self.pace) = (sources, pipelines, None);
+        self.sifters.clear();
+        self.warm.clear();
+        Ok(())
+    }
+
     /// The memory that an invocation under these settings takes.
     ///
     /// # Errors

@@ -53,6 +53,14 @@ impl SharedDevice {
         &self.context.queue
     }
 
+    /// Wait until a submission is done.
+    ///
+    /// # Errors
+    /// [`GpuError::DeviceLost`], [`GpuError::Refused`].
+    pub fn wait_for(&self, submission: &wgpu::SubmissionIndex) -> Result<(), GpuError> {
+        self.context.wait_for(Some(submission.clone()))
+    }
+
     /// What the driver reported since somebody asked last.
     ///
     /// # Errors

@@ -1,5 +1,8 @@
 //! The shader files, embedded in the binary.
 
+use std::path::Path;
+use std::{fs, io};
+
 use super::assemble::Source;
 
 macro_rules! sources {
@@ -37,3 +40,19 @@ pub const SOURCES: &[Source<'static>] = sources! {
     "whitted"
     "wide"
 };
+
+/// The same files out of a folder, in place of those in the binary: for work on them. Their text is kept until the program
+/// ends, some 100 kB each time, so that pipelines of every version may refer to it.
+///
+/// # Errors
+/// The first file that cannot be read, with its path.
+pub fn sources_in(folder: &Path) -> io::Result<&'static [Source<'static>]> {
+    let read = |&(stem, _): &Source<'static>| {
+        let path = folder.join(stem).with_extension("wgsl");
+        let text = fs::read_to_string(&path)
+            .map_err(|error| io::Error::new(error.kind(), format!("{}: {error}", path.display())))?;
+        Ok((stem, &*text.leak()))
+    };
+    let sources: Vec<Source<'static>> = SOURCES.iter().map(read).collect::<io::Result<_>>()?;
+    Ok(sources.leak())
+}

@@ -6,8 +6,8 @@ use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::window::WindowId;
 
-use super::player::{Player, Timings};
 use super::stage::Stage;
+use super::timings::Timings;
 use super::tracer::Report;
 use super::window::Shown;
 use super::{Options, ViewerError};
@@ -21,6 +21,8 @@ pub(super) enum Message {
     Access(accesskit_winit::Event),
     /// A file of the scene was written.
     Written,
+    /// A shader file was written.
+    ShadersWritten,
     /// A scene was read.
     Loaded(Box<Result<Stage, SceneError>>),
 }
@@ -105,7 +107,7 @@ impl ApplicationHandler<Message> for App {
     fn exiting(&mut self, _: &ActiveEventLoop) {
         // The window goes before its display does.
         if let State::Open(shown) = &self.state {
-            self.state = State::Closed(shown.player.as_ref().map(Player::timings));
+            self.state = State::Closed(shown.player.as_ref().map(|player| player.watch.timings()));
         }
     }
 }

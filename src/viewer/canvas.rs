@@ -27,6 +27,8 @@ pub(super) struct Canvas {
     pub(super) device: SharedDevice,
     pub(super) presenter: Presenter,
     gui: egui_wgpu::Renderer,
+    /// What was painted last.
+    drawn: Option<wgpu::SubmissionIndex>,
 }
 
 /// What egui wants to be painted.
@@ -48,7 +50,8 @@ impl Canvas {
         let gui = egui_wgpu::Renderer::new(device.device(), config.format, options);
         let size = window.inner_size().into();
         let surface = Some(surface);
-        let mut canvas = Self { window, size, instance, surface, config, device, presenter, gui };
+        let mut canvas =
+            Self { window, size, instance, surface, config, device, presenter, gui, drawn: None };
         canvas.configure();
         Ok(canvas)
     }
@@ -106,6 +109,17 @@ impl Canvas {
         }
         self.check()?;
         Ok(is_shown)
+    }
+
+    /// Take note of a frame that is not painted.
+    pub(super) fn leave_out(&mut self, painted: Painted) {
+        self.take_textures(&painted.textures);
+        self.free_textures(painted.textures);
+    }
+
+    /// Wait until the device has drawn what was painted last.
+    pub(super) fn finish(&self) -> Result<(), GpuError> {
+        self.drawn.as_ref().map_or(Ok(()), |drawn| self.device.wait_for(drawn))
     }
 
     /// Paint what the window shows into a picture.
@@ -192,7 +206,7 @@ impl Canvas {
             pass.set_scissor_rect(0, 0, size[0], size[1]);
             self.gui.render(&mut pass, &painted.triangles, &screen);
         }
-        queue.submit([encoder.finish()]);
+        self.drawn = Some(queue.submit([encoder.finish()]));
     }
 
     fn take_textures(&mut self, textures: &egui::TexturesDelta) {

@@ -7,7 +7,7 @@ use super::TraceError;
 use super::scale::scaled;
 use crate::cpu::CpuRenderer;
 use crate::film::{Progress, Renderer};
-use crate::gpu::{Exposure, Film, GpuError, GpuRenderer, SharedDevice};
+use crate::gpu::{Exposure, Film, GpuError, GpuRenderer, SharedDevice, Source};
 use crate::layout::constants::MAX_DEPTH;
 use crate::layout::{EffectChoice, FlatScene, Float, Settings, TreeNode, View};
 
@@ -35,6 +35,16 @@ pub(super) trait Engine {
         settings: &Settings,
         listen: Listen<'_>,
     ) -> Result<Option<Exposure>, TraceError>;
+
+    /// Whether pictures are traced by these shader files, or by none.
+    fn has_shaders(&self, shaders: &'static [Source<'static>]) -> bool;
+
+    /// Trace by these shader files from now on, if they can be compiled for the settings.
+    fn take_shaders(
+        &mut self,
+        shaders: &'static [Source<'static>],
+        settings: &Settings,
+    ) -> Result<(), GpuError>;
 
     /// The tree of a pixel, and whether it is to be the CPU's bit for bit; none on the CPU itself.
     fn tree(
@@ -146,6 +156,21 @@ impl Engine for GpuEngine {
         Ok(Some(exposure).filter(Exposure::is_complete))
     }
 
+    fn has_shaders(&self, shaders: &'static [Source<'static>]) -> bool {
+        std::ptr::eq(self.renderer.sources(), shaders)
+    }
+
+    fn take_shaders(
+        &mut self,
+        shaders: &'static [Source<'static>],
+        settings: &Settings,
+    ) -> Result<(), GpuError> {
+        self.renderer.reassemble(shaders, settings)?;
+        // They are for the files before.
+        self.compiling.clear();
+        Ok(())
+    }
+
     fn tree(
         &mut self,
         view: &View,
@@ -223,6 +248,18 @@ impl Engine for CpuEngine<'_> {
             }
         }
         trace(view.samples, settings.adaptive)
+    }
+
+    fn has_shaders(&self, _shaders: &'static [Source<'static>]) -> bool {
+        true
+    }
+
+    fn take_shaders(
+        &mut self,
+        _shaders: &'static [Source<'static>],
+        _settings: &Settings,
+    ) -> Result<(), GpuError> {
+        Ok(())
     }
 
     fn tree(

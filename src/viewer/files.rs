@@ -1,10 +1,14 @@
 //! Files of a scene: read on another thread, watched, and written.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use notify::{RecursiveMode, Watcher};
+use toml_edit::{DocumentMut, Item, TomlError};
 
 use super::stage::Stage;
+use crate::film::{BitDepth, Development, EncodeError, Frame, Metadata, encode_png};
+use crate::gpu::SOURCES;
 use crate::scene::Scene;
 
 /// Tells when a file of a scene was written.
@@ -14,14 +18,13 @@ pub(super) struct Watch {
 }
 
 impl Watch {
-    /// Watch the files that a scene was read from; `tell` is called from another thread.
+    /// Watch files; `tell` is called from another thread.
     ///
     /// Their folders are watched, without those below: editors write a new file and put it in the old one's place.
     ///
     /// # Errors
     /// As the operating system's.
-    pub(super) fn new(stage: &Stage, tell: impl Fn() + Send + 'static) -> notify::Result<Self> {
-        let files = files(stage);
+    pub(super) fn new(files: Vec<PathBuf>, tell: impl Fn() + Send + 'static) -> notify::Result<Self> {
         let folders: Vec<PathBuf> = {
             let mut folders: Vec<_> = files.iter().map(|file| folder_of(file)).collect();
             folders.sort_unstable();
@@ -43,11 +46,21 @@ impl Watch {
 }
 
 /// Everything that a scene was read from, but for the MTL files of its meshes.
-fn files(stage: &Stage) -> Vec<PathBuf> {
+pub(super) fn files_of(stage: &Stage) -> Vec<PathBuf> {
     let Scene { meshes, textures, .. } = &stage.scene;
     let paths =
         std::iter::once(&stage.path).chain(meshes).chain(textures.iter().map(|texture| &texture.path));
-    paths.map(|path| path.canonicalize().unwrap_or_else(|_| path.clone())).collect()
+    paths.map(|path| whole(path)).collect()
+}
+
+/// The shader files of a folder.
+pub(super) fn shader_files(folder: &Path) -> Vec<PathBuf> {
+    SOURCES.iter().map(|(stem, _)| whole(&folder.join(stem).with_extension("wgsl"))).collect()
+}
+
+/// The path as the system tells of it.
+fn whole(path: &Path) -> PathBuf {
+    path.canonicalize().unwrap_or_else(|_| path.to_owned())
 }
 
 /// Whether a change of a file in a watched folder concerns the scene.
@@ -62,31 +75,46 @@ fn folder_of(file: &Path) -> PathBuf {
     }
 }
 
-/// The text of a scene file with another `[camera]` table.
-pub(super) fn with_camera(text: &str, table: &str) -> String {
-    let lines: Vec<&str> = text.lines().collect();
-    let is_header = |line: &&str| line.trim_start().starts_with('[');
-    let start = lines.iter().position(|line| {
-        line.split('#').next().unwrap_or_default().replace(char::is_whitespace, "") == "[camera]"
-    });
-    let Some(start) = start else {
-        // Before the first table, where the keys of none stand.
-        let first = lines.iter().position(is_header).unwrap_or(lines.len());
-        let (head, tail) = lines.split_at(first);
-        return join(&[head, &[table.trim_end(), ""], tail]);
-    };
-    let after = lines[start + 1..].iter().position(is_header);
-    let end = after.map_or(lines.len(), |after| start + 1 + after);
-    // Comments above the next table are its own.
-    let own = lines[start + 1..end]
-        .iter()
-        .rposition(|line| !line.trim().is_empty() && !line.trim_start().starts_with('#'));
-    let end = start + 1 + own.map_or(0, |own| own + 1);
-    join(&[&lines[..start], &[table.trim_end()], &lines[end..]])
+/// The text of a scene file with another `[camera]` table: all else, comments too, stays as it is.
+pub(super) fn with_camera(text: &str, table: &str) -> Result<String, TomlError> {
+    let mut document: DocumentMut = text.parse()?;
+    let mut wanted: DocumentMut = table.parse()?;
+    let Some(Item::Table(mut camera)) = wanted.remove("camera") else { return Ok(document.to_string()) };
+    if let Some(before) = document.get_mut("camera").and_then(Item::as_table_mut) {
+        before.retain(|key, _| camera.contains_key(key));
+        for (key, item) in camera.iter_mut() {
+            if let (Some(value), Some(old)) = (item.as_value_mut(), before.get(&key).and_then(Item::as_value))
+            {
+                *value.decor_mut() = old.decor().clone();
+            }
+            before.insert(&key, std::mem::take(item));
+        }
+    } else {
+        // An inline table would stand among the first keys: a table stands behind all.
+        document.remove("camera");
+        camera.set_position(None);
+        camera.decor_mut().set_prefix("\n");
+        document.insert("camera", Item::Table(camera));
+    }
+    Ok(document.to_string())
 }
 
-fn join(parts: &[&[&str]]) -> String {
-    parts.concat().join("\n") + "\n"
+/// A picture as a PNG file, with what it says about itself.
+pub(super) fn png_of(
+    frame: &Frame,
+    development: Development,
+    metadata: &Metadata,
+) -> Result<Vec<u8>, EncodeError> {
+    let display = development.apply(&frame.radiance());
+    encode_png(frame.width, frame.height, &display, BitDepth::default(), metadata)
+}
+
+/// A new folder `STEM-turn-001`, `STEM-turn-002`, … of the working folder.
+pub(super) fn free_folder(stem: &str) -> Result<PathBuf, String> {
+    let names = (1..10_000).map(|number| PathBuf::from(format!("{stem}-turn-{number:03}")));
+    let path = names.into_iter().find(|path| !path.exists()).ok_or("too many turntables here")?;
+    fs::create_dir(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+    Ok(path)
 }
 
 /// The first name `STEM-001.EXTENSION`, `STEM-002.EXTENSION`, … that is free in a folder.
@@ -104,21 +132,31 @@ mod tests {
 
     use super::*;
 
-    const TABLE: &str = "[camera]\neye = [1.0, 2.0, 3.0]\n";
+    const TABLE: &str = "[camera]\neye = [1.0, 2.0, 3.0]\ntarget = [0.0, 0.5, 0.0]\n";
 
     #[test]
-    fn only_the_camera_changes() {
-        let text = "# A ball.\n[camera] # where\neye = [0, 0, 0]\ntarget = [\n  1, 0, 0]\n\n# Light\n[[light]]\nposition = [0, 1, 0]\n";
-        let expected =
-            "# A ball.\n[camera]\neye = [1.0, 2.0, 3.0]\n\n# Light\n[[light]]\nposition = [0, 1, 0]\n";
-        assert_eq!(with_camera(text, TABLE), expected);
+    fn only_the_camera_changes_and_comments_stay() {
+        let text = "# A ball.\n[camera] # where\n# The eye.\neye = [0, 0, 0] # low\nright = [1, 0, 0]\ntarget = [\n  1, 0, 0]\n\n# Light\n[[light]]\nposition  = [0, 1, 0]\n";
+        let expected = "# A ball.\n[camera] # where\n# The eye.\neye = [1.0, 2.0, 3.0] # low\ntarget = [0.0, 0.5, 0.0]\n\n# Light\n[[light]]\nposition  = [0, 1, 0]\n";
+        assert_eq!(with_camera(text, TABLE).unwrap(), expected);
     }
 
     #[test]
-    fn a_scene_without_camera_gets_one() {
-        let expected = "# A ball.\n[camera]\neye = [1.0, 2.0, 3.0]\n\n[[model]]\n";
-        assert_eq!(with_camera("# A ball.\n[[model]]\n", TABLE), expected);
-        assert_eq!(with_camera("", TABLE), "[camera]\neye = [1.0, 2.0, 3.0]\n\n");
+    fn a_scene_without_a_camera_table_gets_one() {
+        let expected = format!("# A ball.\n[[model]]\n\n{TABLE}");
+        assert_eq!(with_camera("# A ball.\n[[model]]\n", TABLE).unwrap(), expected);
+        let inline = "camera = { eye = [0, 0, 0], target = [0, 0, 1] }\n[[model]]\n";
+        assert_eq!(with_camera(inline, TABLE).unwrap(), format!("[[model]]\n\n{TABLE}"));
+        let dotted = "camera.eye = [0, 0, 0] # low\n[[model]]\n";
+        let changed = with_camera(dotted, TABLE).unwrap();
+        assert!(changed.starts_with("camera.eye = [1.0, 2.0, 3.0] # low\n"), "{changed}");
+        assert!(changed.contains("camera.target = [0.0, 0.5, 0.0]\n"), "{changed}");
+    }
+
+    #[test]
+    fn brackets_in_comments_and_texts_are_no_tables() {
+        let text = "[material.m] # [camera]\nname = \"\"\"\n[camera]\n\"\"\"\n";
+        assert_eq!(with_camera(text, TABLE).unwrap(), format!("{text}\n{TABLE}"));
     }
 
     #[test]
@@ -138,7 +176,7 @@ mod tests {
         std::fs::write(&path, text).unwrap();
         let stage = Stage::load(&path).map_err(|error| error.to_string()).unwrap();
         let (sender, receiver) = channel();
-        let _watch = Watch::new(&stage, move || _ = sender.send(())).unwrap();
+        let _watch = Watch::new(files_of(&stage), move || _ = sender.send(())).unwrap();
         std::fs::write(folder.path().join("picture.png"), "x").unwrap();
         assert!(receiver.recv_timeout(Duration::from_millis(200)).is_err());
         std::fs::write(&path, text).unwrap();

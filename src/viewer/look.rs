@@ -4,6 +4,7 @@ use std::fmt;
 
 use crate::film::AovKind;
 use crate::gpu::Exposure;
+use crate::layout::constants::BLOCK;
 
 /// What is shown of a picture: what the command line can write of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -99,4 +100,41 @@ impl Look {
     pub fn needs_ranges(&self) -> bool {
         self.first != ViewKind::Beauty || self.second.is_some_and(|kind| kind != ViewKind::Beauty)
     }
+
+    /// What is drawn for a picture in the part `area` of a target (left, top, width and height in pixels), one over the
+    /// other: the last finished film where the one in work has nothing yet; left and right of the bar if there is one.
+    pub(super) fn layers(&self, area: [u32; 4]) -> Vec<Layer<'_>> {
+        let [left, top, width, height] = area;
+        let bar = self.second.map_or(width, |_| ((self.wipe * width as f32).round() as u32).min(width));
+        let mut layers = Vec::new();
+        for (kind, first, end) in [(self.first, 0, bar), (self.second.unwrap_or(self.first), bar, width)] {
+            let fine = self.fine.as_ref().map(|fine| (fine, rows_of(fine, height)));
+            let is_covered = fine.is_some_and(|(_, rows)| rows == height);
+            let coarse = self.coarse.as_ref().filter(|_| !is_covered).map(|coarse| (coarse, height));
+            for (exposure, rows) in [coarse, fine].into_iter().flatten() {
+                layers.push(Layer { exposure, kind, part: [left + first, top, end - first, rows] });
+            }
+        }
+        layers
+    }
+}
+
+/// A film, or its upper part, as it is drawn over others.
+pub(super) struct Layer<'a> {
+    pub(super) exposure: &'a Exposure,
+    pub(super) kind: ViewKind,
+    /// Left, top, width and height in pixels of the target.
+    pub(super) part: [u32; 4],
+}
+
+/// Rows of a picture of so many on a target that a film in work has: whole rows of blocks, until each pixel has a sample.
+fn rows_of(exposure: &Exposure, height: u32) -> u32 {
+    let rows = exposure.blocks / exposure.columns().max(1) * BLOCK;
+    if exposure.passes > 0 || rows >= exposure.film.height {
+        return height;
+    }
+    let scale = f64::from(height) / f64::from(exposure.film.height.max(1));
+    // Between two rows one would show the one that is not there.
+    let sure = if scale == 1.0 { f64::from(rows) } else { f64::from(rows) - 0.5 };
+    (sure.max(0.0) * scale) as u32
 }

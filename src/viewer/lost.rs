@@ -46,6 +46,7 @@ impl Shown {
         self.context.set_fonts(fonts);
         self.wanted = None;
         self.finished = None;
+        self.session.turning = None;
         (self.asked, self.newest) = (0, 0);
         self.unanswered.clear();
         self.window.request_redraw();

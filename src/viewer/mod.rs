@@ -6,11 +6,15 @@
 //! the tracer where something changed, and shows the films that come back: they stay on the device, where
 //! [`Presenter`] reads them. Nothing is painted and nothing traced while nothing changes.
 
+mod acts;
 mod app;
 mod canvas;
 mod cost;
 mod engine;
 mod files;
+mod frame;
+mod groups;
+mod inbox;
 mod inspection;
 mod look;
 mod lost;
@@ -21,12 +25,18 @@ mod picture;
 mod play;
 mod player;
 mod present;
+mod reels;
+mod reports;
 mod scale;
 mod script;
 mod session;
+mod sight;
 mod stage;
+mod timings;
 mod tracer;
+mod turntable;
 mod window;
+mod worker;
 
 use std::path::PathBuf;
 
@@ -38,13 +48,14 @@ pub use cost::Cost;
 pub use inspection::{Comparison, Inspection};
 pub use look::{Look, ViewKind};
 pub use orbit::{Orbit, Side};
-pub use player::Timings;
 pub use present::{Presenter, Ranges};
 pub use scale::{LEAST_SIDE, Scale, TARGET};
 pub use script::{Event, Expectation, ScriptError, parse as parse_script};
 pub use session::{Order, Session, Status, Toast};
 pub use stage::Stage;
+pub use timings::{AnswerTime, FrameTime, Timings};
 pub use tracer::{Kind, Report, Resolution, Traced, Tracer, Wanted};
+pub use turntable::{Turning, Turntable};
 
 use crate::cpu::CpuError;
 use crate::film::{EncodeError, OutputError};
@@ -75,6 +86,8 @@ pub struct Options {
     pub threads: usize,
     /// Which adapter shows the window, and traces with [`Backend::Gpu`].
     pub gpu: GpuOptions,
+    /// A folder of shader files that take the place of the program's own, and are compiled again when they change.
+    pub shaders: Option<PathBuf>,
     /// Size of the picture beside the panel in pixels.
     pub size: [u32; 2],
     /// Write the window to a file and quit.
@@ -130,6 +143,9 @@ pub enum ViewerError {
     /// The CPU.
     #[error(transparent)]
     Cpu(#[from] CpuError),
+    /// A folder without all shader files.
+    #[error("--shaders: {0}")]
+    Shaders(std::io::Error),
     /// A script's event has not the effect that it is to have.
     #[error("{}:{line}: {message}", path.display())]
     Script {
@@ -157,7 +173,7 @@ impl ViewerError {
             Self::Display(_) | Self::Window(_) | Self::Surface(_) => 3,
             Self::Gpu(error) => error.exit_code(),
             Self::Script { .. } => 1,
-            Self::Cpu(_) | Self::Encode(_) | Self::Output(_) => 2,
+            Self::Cpu(_) | Self::Shaders(_) | Self::Encode(_) | Self::Output(_) => 2,
         }
     }
 

@@ -12,8 +12,6 @@ const POLE: f64 = 0.5;
 const DISTANCES: [f64; 2] = [1e-3, 50.0];
 /// Room around the scene when it is framed, as a factor on the distance.
 const MARGIN: f64 = 1.08;
-/// Closest to the eye's plane that a segment is drawn, in radii of the scene.
-const NEAR: f64 = 1e-4;
 /// Field of view that stands for none at all, in degrees: the rays of a picture are parallel within it.
 pub(super) const TELEPHOTO: f64 = 1.0;
 
@@ -25,7 +23,7 @@ pub struct Orbit {
     /// The scene's own camera.
     home: Camera,
     center: DVec3,
-    radius: f64,
+    pub(super) radius: f64,
     /// The field of view to go back to.
     fov_y: f64,
 }
@@ -176,49 +174,6 @@ impl Orbit {
         self.camera.eye = pivot - self.camera.forward * self.camera.target_distance;
     }
 
-    /// Where a world point appears in a picture of width/height `aspect`: parts of its width and height from the top
-    /// left; none behind the eye.
-    #[must_use]
-    pub fn project(&self, point: DVec3, aspect: f64) -> Option<DVec2> {
-        let offset = point - self.camera.eye;
-        let depth = offset.dot(self.camera.forward);
-        let half = (self.camera.fov_y.to_radians() / 2.0).tan();
-        (depth > 0.0).then(|| {
-            let x = offset.dot(self.camera.right) / (depth * half * aspect);
-            let y = offset.dot(self.camera.up) / (depth * half);
-            DVec2::new(0.5 + 0.5 * x, 0.5 - 0.5 * y)
-        })
-    }
-
-    /// The part of a segment that lies before the eye, if any.
-    #[must_use]
-    pub fn in_front(&self, [a, b]: [DVec3; 2]) -> Option<[DVec3; 2]> {
-        let near = NEAR * self.radius;
-        let depth = |point: DVec3| (point - self.camera.eye).dot(self.camera.forward) - near;
-        let (from, to) = (depth(a), depth(b));
-        let cut = || a + (b - a) * (from / (from - to));
-        match (from > 0.0, to > 0.0) {
-            (true, true) => Some([a, b]),
-            (true, false) => Some([a, cut()]),
-            (false, true) => Some([cut(), b]),
-            (false, false) => None,
-        }
-    }
-
-    /// The scene file's table of this camera.
-    #[must_use]
-    pub fn table(&self) -> String {
-        let vector = |v: DVec3| format!("[{}, {}, {}]", number(v.x), number(v.y), number(v.z));
-        let Camera { eye, up, fov_y, .. } = &self.camera;
-        format!(
-            "[camera]\neye = {}\ntarget = {}\nup = {}\nfov_y = {}\n",
-            vector(*eye),
-            vector(self.pivot()),
-            vector(*up),
-            number(*fov_y)
-        )
-    }
-
     fn turn(&mut self, turn: DQuat) {
         let Camera { up, forward, .. } = self.camera;
         let forward = (turn * forward).normalize();
@@ -232,20 +187,12 @@ impl Orbit {
     }
 }
 
-/// A number that TOML reads as a float, with the digits that f32 renderers see.
-fn number(value: f64) -> String {
-    let text = format!("{:.7}", value);
-    let text = text.trim_end_matches('0');
-    let text = if text.ends_with('.') { format!("{text}0") } else { text.to_owned() };
-    if text == "-0.0" { "0.0".to_owned() } else { text }
-}
-
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
-    fn orbit() -> Orbit {
+    pub(in crate::viewer) fn orbit() -> Orbit {
         let camera = Camera {
             eye: DVec3::new(0.0, 1.0, 5.0),
             right: DVec3::X,
@@ -344,14 +291,6 @@ mod tests {
     }
 
     #[test]
-    fn a_segment_is_cut_before_the_eye() {
-        let orbit = orbit();
-        let [a, b] = orbit.in_front([DVec3::new(0.0, 1.0, 0.0), DVec3::new(0.0, 1.0, 10.0)]).unwrap();
-        assert!(a.z == 0.0 && b.z < 5.0 && b.z > 4.99, "{b}");
-        assert_eq!(orbit.in_front([DVec3::Z * 6.0, DVec3::Z * 7.0]), None);
-    }
-
-    #[test]
     fn a_new_pivot_comes_to_the_middle() {
         let mut orbit = orbit();
         let point = DVec3::new(0.5, 2.0, 0.5);
@@ -361,18 +300,5 @@ mod tests {
         assert_eq!(orbit.camera.eye, eye);
         orbit.reset();
         assert_eq!(orbit.camera, orbit.home);
-    }
-
-    #[test]
-    fn the_table_reads_back_as_the_camera() {
-        let mut orbit = orbit();
-        orbit.orbit(DVec2::new(0.123, 0.045));
-        let text = orbit.table()
-            + "[[model]]\nshape = { sphere = { radius = 1.0 } }\nmaterial = \"m\"\n[material.m]\ndiffuse = { color = \"#ffffff\" }\n";
-        let scene = crate::scene::Scene::parse("a.toml".as_ref(), &text);
-        let camera = scene.map_err(|error| error.to_string()).unwrap().camera;
-        assert!((camera.eye - orbit.camera.eye).length() < 1e-6);
-        assert!((camera.forward - orbit.camera.forward).length() < 1e-6);
-        assert!((camera.up - orbit.camera.up).length() < 1e-6 && camera.fov_y == 40.0);
     }
 }

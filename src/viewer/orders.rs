@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 use std::{fs, thread};
 
@@ -9,13 +10,15 @@ use winit::event_loop::{ActiveEventLoop, EventLoopProxy};
 
 use super::app::Message;
 use super::cost::{Cost, Finished};
-use super::files::{self, Watch};
+use super::files::{self, Watch, files_of, png_of};
 use super::inspection::Inspection;
 use super::session::Order;
 use super::stage::Stage;
+use super::turntable::{Turning, Turntable};
 use super::window::Shown;
 use super::{Screenshot, ViewerError};
-use crate::film::{BitDepth, Development, Output, encode_png, encode_preview, write_whole};
+use crate::film::{Development, Output, encode_preview, write_whole};
+use crate::gpu::sources_in;
 use crate::scene::{Scene, SceneError};
 
 impl Shown {
@@ -28,7 +31,7 @@ impl Shown {
                 self.session.put(Arc::new(stage));
                 self.session.toasts.retain(|toast| !toast.is_error);
                 self.session.say(if is_other { "opened" } else { "read again: the file has changed" });
-                self.watch = watch(&self.session.stage, &self.proxy);
+                self.watch = watch(files_of(&self.session.stage), &self.proxy, || Message::Written);
                 // What was waited for is of another scene.
                 self.unanswered.clear();
                 self.ask(Instant::now());
@@ -44,6 +47,16 @@ impl Shown {
             // Fails only when the loop has ended.
             let _ = proxy.send_event(Message::Loaded(Box::new(Stage::load(&path))));
         });
+    }
+
+    /// Read the shader files again, for the next picture.
+    pub(super) fn read_shaders(&mut self) {
+        let Some((folder, _)) = &self.shaders else { return };
+        match sources_in(folder) {
+            Ok(sources) => self.session.shaders = sources,
+            Err(error) => self.session.complain(error.to_string()),
+        }
+        self.window.request_redraw();
     }
 
     /// Do what the panels left for the window to do.
@@ -80,6 +93,11 @@ impl Shown {
                     let saved = self.save_picture();
                     self.session.tell(saved);
                 }
+                Order::Turntable(pictures) => {
+                    if let Err(message) = self.start_turntable(pictures) {
+                        self.session.complain(message);
+                    }
+                }
                 Order::SaveScene => {
                     let saved = self.save_scene();
                     self.session.tell(saved);
@@ -105,16 +123,30 @@ impl Shown {
             files::free_name(Path::new(""), &self.session.stem(), "png").ok_or("too many pictures here")?;
         let development = Development { exposure: self.session.look.exposure, ..Development::default() };
         let metadata = self.session.metadata();
-        let bytes = encode_png(
-            frame.width,
-            frame.height,
-            &development.apply(&frame.radiance()),
-            BitDepth::default(),
-            &metadata,
-        );
-        let bytes = bytes.map_err(|error| error.to_string())?;
+        let bytes = png_of(&frame, development, &metadata).map_err(|error| error.to_string())?;
         write_whole(&path, &bytes).map_err(|error| format!("{}: {error}", path.display()))?;
         Ok(format!("the picture is in {}", path.display()))
+    }
+
+    /// Have pictures from round the pivot traced and written.
+    fn start_turntable(&mut self, pictures: u32) -> Result<(), String> {
+        let Some(wanted) = self.wanted.clone() else { return Err("there is no picture yet".to_owned()) };
+        let stem = self.session.stem();
+        let stop = Arc::new(AtomicBool::new(false));
+        let exposure = self.session.look.exposure;
+        let turntable = Turntable {
+            wanted,
+            pictures,
+            folder: files::free_folder(&stem)?,
+            stem,
+            development: Development { exposure, ..Development::default() },
+            metadata: self.session.metadata(),
+            stop: Arc::clone(&stop),
+            done: 0,
+        };
+        self.session.turning = Some(Turning { done: 0, of: pictures, stop });
+        self.tracer.turn(turntable);
+        Ok(())
     }
 
     /// Write the scene file with this camera to a new file beside it.
@@ -124,7 +156,8 @@ impl Shown {
             return Err("a bare mesh has no place for a camera: C copies the table instead".to_owned());
         }
         let text = fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
-        let text = files::with_camera(&text, &self.session.orbit.table());
+        let text = files::with_camera(&text, &self.session.orbit.table())
+            .map_err(|error| format!("{}: {error}", path.display()))?;
         let folder = path.parent().unwrap_or(Path::new("."));
         let target = files::free_name(folder, &self.session.stem(), "toml").ok_or("too many scenes there")?;
         // What cannot be read again is not written.
@@ -174,10 +207,14 @@ impl Shown {
     }
 }
 
-/// Hear of changes of a scene's files, where the system allows it.
-pub(super) fn watch(stage: &Stage, proxy: &EventLoopProxy<Message>) -> Option<Watch> {
+/// Hear of changes of files, where the system allows it.
+pub(super) fn watch(
+    files: Vec<PathBuf>,
+    proxy: &EventLoopProxy<Message>,
+    message: fn() -> Message,
+) -> Option<Watch> {
     let proxy = proxy.clone();
-    let watch = Watch::new(stage, move || drop(proxy.send_event(Message::Written)));
+    let watch = Watch::new(files, move || drop(proxy.send_event(message())));
     watch.inspect_err(|error| tracing::warn!("changes of files are not seen: {error}")).ok()
 }
 

@@ -47,6 +47,10 @@ pub(super) fn show(ui: &mut Ui, session: &mut Session) -> Rect {
         fly(ui, session);
     }
     inspection::draw(ui, session, rect);
+    if session.look.second.is_some() {
+        let bar = rect.min.x + (session.look.wipe * rect.width()).round();
+        ui.painter().vline(bar, rect.y_range(), egui::Stroke::new(2.0, egui::Color32::WHITE));
+    }
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "picture"));
     rect
 }

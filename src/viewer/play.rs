@@ -6,8 +6,9 @@ use std::time::{Duration, Instant};
 use winit::dpi::PhysicalSize;
 use winit::event_loop::ActiveEventLoop;
 
+use super::acts::{Act, Place};
+use super::inspection::line;
 use super::panels::PANEL;
-use super::player::{Act, Place};
 use super::script::Expectation;
 use super::session::Order;
 use super::window::Shown;
@@ -70,12 +71,16 @@ impl Shown {
         match act {
             Act::Inputs(inputs) => {
                 if is_new {
+                    self.touched.get_or_insert_with(Instant::now);
                     self.input.egui_input_mut().events.extend(inputs);
                     self.awaited = self.frames + 1;
                 } else if self.frames >= self.awaited {
                     return Ok(Effect::Done);
                 }
-                self.window.request_redraw();
+                // A frame that waits for its picture comes with that.
+                if self.left_out.is_none() {
+                    self.window.request_redraw();
+                }
                 return Ok(Effect::Awaited);
             }
             Act::AwaitPicture if self.wanted.is_none() || !self.unanswered.is_empty() => {
@@ -133,9 +138,10 @@ impl Shown {
                 self.write_window(&output)?;
             }
             Act::Expect(expectation) => return self.expect(&expectation),
-            Act::StartIdle => self.player.iter_mut().for_each(|player| player.start_idle()),
+            Act::Turntable(pictures) => self.order(Order::Turntable(pictures)),
+            Act::StartIdle => self.player.iter_mut().for_each(|player| player.watch.start_idle()),
             Act::EndIdle(percent) => {
-                let used = self.player.as_mut().and_then(|player| player.end_idle());
+                let used = self.player.as_mut().and_then(|player| player.watch.end_idle());
                 match used {
                     Some(used) if used < percent => {}
                     Some(used) => return Err(self.fault(format!("{used:.2} % of a core while idle"))),
@@ -172,6 +178,20 @@ impl Shown {
             Expectation::Backend { is_cpu } => {
                 let traced = matches!(self.session.backend, Backend::Cpu { .. });
                 (traced == *is_cpu, format!("{:?} traces", self.session.backend))
+            }
+            Expectation::Tree(text) => {
+                let rays = self.session.inspection.iter().flat_map(|inspection| &inspection.tree.nodes);
+                let lines: Vec<String> = rays.map(line).collect();
+                let is_there = lines.iter().any(|line| line.contains(text));
+                (is_there, format!("no line of the pixel's tree holds `{text}`: {lines:?}"))
+            }
+            Expectation::Frame(most) => {
+                let slowest = self.player.as_ref().map_or(0.0, |player| player.watch.slowest_frame());
+                (slowest <= *most, format!("a frame took {slowest:.0} ms"))
+            }
+            Expectation::Answer(most) => {
+                let median = self.player.as_ref().map_or(0.0, |player| player.watch.median_answer());
+                (median <= *most, format!("the median of the answers is {median:.0} ms"))
             }
             Expectation::Idle { .. } => (true, String::new()),
         };

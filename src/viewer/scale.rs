@@ -11,18 +11,10 @@ pub const LEAST_SIDE: u32 = 128;
 const IDLE: f64 = 0.6;
 /// What a changed frame is meant to take, as a part of the target.
 const AIM: f64 = 0.85;
-/// Scale of the first frame, before anything is known.
-const FIRST: f64 = 0.25;
-
-/// The part of a window's width and height that a moving picture is traced at, in (0, 1].
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// The part of a window's width and height that a moving picture is traced at, up to 1. The first frame is the smallest:
+/// its time tells how large the next may be.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Scale(f64);
-
-impl Default for Scale {
-    fn default() -> Self {
-        Self(FIRST)
-    }
-}
 
 impl Scale {
     /// The size of a moving picture in a window of this size: not above it, with a long side of at least
@@ -79,6 +71,15 @@ mod tests {
             let (size, ms) = frames[11];
             assert!((15.0..=30.0).contains(&ms), "{speed} pixels a millisecond: {ms}");
             assert!(frames[4..].iter().all(|frame| frame.0 == size), "{frames:?}");
+        }
+    }
+
+    #[test]
+    fn the_first_frame_is_the_smallest_and_the_second_fits() {
+        for speed in [200.0, 600.0, 9000.0, 1e6] {
+            let frames = frames(speed, 2);
+            assert_eq!(frames[0].0, [128, 72]);
+            assert!(frames[1].1 <= 30.0 || frames[1].0 == [128, 72], "{frames:?}");
         }
     }
 

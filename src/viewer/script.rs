@@ -18,11 +18,15 @@
 //! theme light|dark
 //! lose                    lose the device
 //! screenshot PATH         write the window to a PNG file
+//! turntable N             write so many pictures from round the pivot
 //! wait rest               until the picture is complete
 //! wait MS                 so many milliseconds
-//! expect toast TEXT       a message that holds the text is shown within ten seconds
+//! expect toast TEXT       a message that holds the text is shown within a minute
 //! expect size W H         of the picture, complete
 //! expect backend cpu|gpu
+//! expect tree TEXT        a line of the outline of the clicked pixel's rays holds the text
+//! expect frame MS         no frame of the window has taken longer by now
+//! expect answer MS        by now, half of the inputs that moved the camera have changed pixels within this time
 //! expect idle PERCENT MS  so long, with no event, the program takes less than this part of one core (Linux)
 //! quit
 //! ```
@@ -82,6 +86,8 @@ pub enum Event {
     Lose,
     /// Write the window to a file.
     Screenshot(PathBuf),
+    /// Write so many pictures from round the pivot.
+    Turntable(u32),
     /// Until the picture is complete.
     Rest,
     /// So many milliseconds.
@@ -104,6 +110,12 @@ pub enum Expectation {
         /// The CPU.
         is_cpu: bool,
     },
+    /// A line of the clicked pixel's rays that holds this text.
+    Tree(String),
+    /// The longest frame of the window, in milliseconds.
+    Frame(f64),
+    /// The median time from an input that moves the camera to the first changed pixels, in milliseconds.
+    Answer(f64),
     /// Less than this part of one core for so long.
     Idle {
         /// Percent of one core.
@@ -164,6 +176,7 @@ fn event(line: &str) -> Result<Event, String> {
         ["theme", "light"] => Event::Theme(egui::Theme::Light),
         ["lose"] => Event::Lose,
         ["screenshot", ..] => Event::Screenshot(rest(1).into()),
+        ["turntable", pictures] => Event::Turntable(count(pictures)?),
         ["wait", "rest"] => Event::Rest,
         ["wait", time] => {
             Event::Sleep(time.parse().map_err(|_| format!("{time} is no number of milliseconds"))?)
@@ -173,6 +186,9 @@ fn event(line: &str) -> Result<Event, String> {
             Event::Expect(Expectation::Size([count(width)?, count(height)?]))
         }
         ["expect", "backend", name] => Event::Expect(Expectation::Backend { is_cpu: is_cpu(name)? }),
+        ["expect", "tree", ..] => Event::Expect(Expectation::Tree(rest(2).to_owned())),
+        ["expect", "frame", time] => Event::Expect(Expectation::Frame(milliseconds(time)?)),
+        ["expect", "answer", time] => Event::Expect(Expectation::Answer(milliseconds(time)?)),
         ["expect", "idle", percent, time] => Event::Expect(Expectation::Idle {
             percent: percent.parse().map_err(|_| format!("{percent} is no number"))?,
             milliseconds: time.parse().map_err(|_| format!("{time} is no number of milliseconds"))?,
@@ -184,6 +200,13 @@ fn event(line: &str) -> Result<Event, String> {
 
 fn number(word: &str) -> Result<f32, String> {
     word.parse().ok().filter(|number: &f32| number.is_finite()).ok_or_else(|| format!("{word} is no number"))
+}
+
+fn milliseconds(word: &str) -> Result<f64, String> {
+    word.parse()
+        .ok()
+        .filter(|time: &f64| *time > 0.0)
+        .ok_or_else(|| format!("{word} is no number of milliseconds"))
 }
 
 fn count(word: &str) -> Result<u32, String> {

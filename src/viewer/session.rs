@@ -12,8 +12,9 @@ use super::orbit::Orbit;
 use super::present::Ranges;
 use super::stage::Stage;
 use super::tracer::{Kind, Resolution, Wanted};
+use super::turntable::Turning;
 use crate::film::{Metadata, RayCounts, TraceTimes};
-use crate::gpu::AdapterReport;
+use crate::gpu::{AdapterReport, SOURCES, Source};
 use crate::layout::{EffectChoice, EffectSet, Effects, Settings};
 use crate::scene::Scene;
 
@@ -58,6 +59,12 @@ pub struct Session {
     pub cost: Option<Cost>,
     /// Messages that fade.
     pub toasts: Vec<Toast>,
+    /// The shader files that adapters trace by.
+    pub shaders: &'static [Source<'static>],
+    /// Pictures of the next turntable.
+    pub turntable_pictures: u32,
+    /// The turntable in work.
+    pub turning: Option<Turning>,
     /// What is left for the window to do.
     pub orders: Vec<Order>,
 }
@@ -107,6 +114,8 @@ pub enum Order {
     Screenshot,
     /// Write a copy of the scene file with this camera.
     SaveScene,
+    /// Write so many pictures from round the pivot.
+    Turntable(u32),
     /// Open another scene.
     Open(PathBuf),
     /// Trace by another adapter.
@@ -152,6 +161,9 @@ impl Session {
             inspection: None,
             cost: None,
             toasts: Vec::new(),
+            shaders: SOURCES,
+            turntable_pictures: 36,
+            turning: None,
             orders: Vec::new(),
         }
     }
@@ -185,6 +197,7 @@ impl Session {
             resolution: self.resolution,
             threads: self.threads,
             compares: self.look.needs_reference(),
+            shaders: self.shaders,
         }
     }
 

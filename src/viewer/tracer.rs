@@ -1,24 +1,21 @@
 //! The thread that traces: always what was asked for last, coarse while that changes and fine when it rests.
 
-use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-use super::engine::{CpuEngine, Engine, GpuEngine};
+use super::inbox::Inbox;
 use super::scale::{Scale, scaled};
 use super::stage::Stage;
+use super::turntable::Turntable;
+use super::worker::Worker;
 use super::{Backend, TraceError};
 use crate::flatten::view;
-use crate::gpu::{Exposure, GpuRenderer, SharedDevice};
+use crate::gpu::{Exposure, GpuError, SharedDevice, Source};
 use crate::layout::{Settings, TreeNode, View};
 use crate::scene::Camera;
-
-/// How long nothing changes until a picture is refined.
-const REST: Duration = Duration::from_millis(80);
-/// How often a picture in work is shown.
-const SHOW: Duration = Duration::from_millis(120);
 
 /// What is to be traced.
 #[derive(Debug, Clone)]
@@ -39,6 +36,8 @@ pub struct Wanted {
     pub resolution: Resolution,
     /// Whether the CPU is to trace the finished picture too.
     pub compares: bool,
+    /// The shader files that an adapter traces by.
+    pub shaders: &'static [Source<'static>],
 }
 
 /// How many pixels are traced.
@@ -52,14 +51,14 @@ pub enum Resolution {
 }
 
 impl Wanted {
-    fn size_at_rest(&self) -> [u32; 2] {
+    pub(super) fn size_at_rest(&self) -> [u32; 2] {
         match self.resolution {
             Resolution::Auto => self.size,
             Resolution::Every(side) => scaled(self.size, 1.0 / f64::from(side.max(1))),
         }
     }
 
-    fn size_in_motion(&self, scale: Scale) -> [u32; 2] {
+    pub(super) fn size_in_motion(&self, scale: Scale) -> [u32; 2] {
         match self.resolution {
             Resolution::Auto => scale.of(self.size),
             Resolution::Every(_) => self.size_at_rest(),
@@ -67,14 +66,16 @@ impl Wanted {
     }
 
     /// What the camera sees in a picture of this size, with so many samples.
-    fn view(&self, size: [u32; 2], settings: &Settings) -> View {
+    pub(super) fn view(&self, size: [u32; 2], settings: &Settings) -> View {
         view(&self.camera, &self.stage.flat.scene, size, None, settings)
     }
 
     /// Whether both ask for the same picture.
     #[must_use]
     pub fn is(&self, other: &Self) -> bool {
-        self.is_of_same_view(other) && self.settings == other.settings && self.compares == other.compares
+        self.is_of_same_view(other)
+            && (self.settings, self.compares) == (other.settings, other.compares)
+            && std::ptr::eq(self.shaders, other.shaders)
     }
 
     /// Whether both are of the same scene, camera and size on the same device: what differs are the settings.
@@ -85,7 +86,7 @@ impl Wanted {
     }
 
     /// Whether the same engine serves both.
-    fn is_on(&self, other: &Self) -> bool {
+    pub(super) fn is_on(&self, other: &Self) -> bool {
         self.backend == other.backend && Arc::ptr_eq(&self.stage, &other.stage)
     }
 }
@@ -107,6 +108,19 @@ pub enum Report {
         /// Whether they are to be the CPU's bit for bit.
         is_strict: bool,
     },
+    /// Other shader files are in use, or cannot be compiled: then those before are.
+    Shaders(Result<(), GpuError>),
+    /// How far a turntable is.
+    Turned {
+        /// Pictures that are written.
+        done: u32,
+        /// All of them.
+        of: u32,
+        /// Where they are.
+        folder: PathBuf,
+    },
+    /// A turntable that ends early.
+    TurnedNoMore(String),
 }
 
 /// A picture, or what there is of it.
@@ -134,31 +148,10 @@ pub enum Kind {
     Reference,
 }
 
-/// Settings of pictures in motion: those at rest, so that one pipeline serves both, but for what needs many samples.
-fn in_motion(settings: &Settings) -> Settings {
-    Settings { adaptive: None, ..*settings }
-}
-
 /// Handle of the thread; dropped, the thread ends.
 pub struct Tracer {
     inbox: Arc<Inbox>,
     thread: Option<JoinHandle<()>>,
-}
-
-#[derive(Default)]
-struct Inbox {
-    letter: Mutex<Letter>,
-    changed: Condvar,
-    /// Of the last request.
-    serial: AtomicU64,
-}
-
-#[derive(Default)]
-struct Letter {
-    wanted: Option<(Wanted, Instant)>,
-    /// A pixel whose tree is asked for, of this picture.
-    question: Option<(Wanted, [u32; 2])>,
-    quits: bool,
 }
 
 impl Tracer {
@@ -166,8 +159,7 @@ impl Tracer {
     #[must_use]
     pub fn start(device: SharedDevice, say: impl Fn(Report) + Send + Sync + 'static) -> Self {
         let inbox = Arc::new(Inbox::default());
-        let worker =
-            Worker { inbox: Arc::clone(&inbox), device, say: Box::new(say), scale: Scale::default() };
+        let worker = Worker::new(Arc::clone(&inbox), device, Box::new(say));
         Self { inbox, thread: Some(thread::spawn(move || worker.run())) }
     }
 
@@ -179,12 +171,16 @@ impl Tracer {
         self.inbox.changed.notify_one();
         serial
     }
-}
 
-impl Tracer {
     /// Trace the tree of a pixel of a picture at rest on the adapter, once there is time for it.
     pub fn ask(&self, wanted: Wanted, pixel: [u32; 2]) {
         self.inbox.lock().question = Some((wanted, pixel));
+        self.inbox.changed.notify_one();
+    }
+
+    /// Trace and write pictures from round the target, whenever nothing else is to be traced.
+    pub fn turn(&self, turntable: Turntable) {
+        self.inbox.lock().turntable = Some(turntable);
         self.inbox.changed.notify_one();
     }
 }
@@ -199,238 +195,5 @@ impl Drop for Tracer {
             // A panic there was printed there.
             let _ = thread.join();
         }
-    }
-}
-
-impl Inbox {
-    fn lock(&self) -> MutexGuard<'_, Letter> {
-        self.letter.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    fn serial(&self) -> u64 {
-        self.serial.load(Ordering::Acquire)
-    }
-
-    /// What is to be done next; none at the end, or when `patience` is over.
-    fn wait(&self, patience: Option<Duration>) -> Option<Task> {
-        let nothing_new =
-            |letter: &mut Letter| letter.wanted.is_none() && letter.question.is_none() && !letter.quits;
-        let letter = self.lock();
-        let mut letter = match patience {
-            None => self.changed.wait_while(letter, nothing_new).unwrap_or_else(PoisonError::into_inner),
-            Some(patience) => {
-                let waited = self.changed.wait_timeout_while(letter, patience, nothing_new);
-                waited.unwrap_or_else(PoisonError::into_inner).0
-            }
-        };
-        if letter.quits {
-            return None;
-        }
-        if let Some((wanted, since)) = letter.wanted.take() {
-            return Some(Task::Trace(Request { wanted, since, serial: self.serial() }));
-        }
-        letter.question.take().map(|(wanted, pixel)| Task::Answer(wanted, pixel))
-    }
-}
-
-/// What the thread is to do.
-enum Task {
-    Trace(Request),
-    /// Trace the tree of a pixel.
-    Answer(Wanted, [u32; 2]),
-}
-
-/// A request, its time and its number.
-struct Request {
-    wanted: Wanted,
-    since: Instant,
-    serial: u64,
-}
-
-struct Worker {
-    inbox: Arc<Inbox>,
-    device: SharedDevice,
-    say: Box<dyn Fn(Report) + Send + Sync>,
-    scale: Scale,
-}
-
-impl Worker {
-    fn run(mut self) {
-        let mut gpu: Option<(Arc<Stage>, GpuRenderer)> = None;
-        let mut next = self.first();
-        while let Some(request) = next {
-            let stage = Arc::clone(&request.wanted.stage);
-            let served = match request.wanted.backend {
-                Backend::Gpu => {
-                    // Of another scene only what is compiled is of use.
-                    let renderer = match gpu.take() {
-                        Some((of, renderer)) if Arc::ptr_eq(&of, &stage) => Ok(renderer),
-                        Some((_, mut renderer)) => {
-                            renderer.show(&stage.flat.scene).map(|()| renderer).map_err(TraceError::Gpu)
-                        }
-                        None => GpuRenderer::on(&self.device, &stage.flat.scene).map_err(TraceError::Gpu),
-                    };
-                    renderer.and_then(|renderer| {
-                        let mut engine = GpuEngine::new(renderer);
-                        let next = self.serve(&mut engine, request);
-                        gpu = Some((stage, engine.into_renderer()));
-                        next
-                    })
-                }
-                Backend::Cpu { threads } => CpuEngine::new(&stage.flat.scene, threads, &self.device)
-                    .and_then(|mut engine| self.serve(&mut engine, request)),
-            };
-            next = served.unwrap_or_else(|error| {
-                gpu = None;
-                (self.say)(Report::Failed(error));
-                self.first()
-            });
-        }
-    }
-
-    /// The next request while there is no engine to answer questions.
-    fn first(&self) -> Option<Request> {
-        loop {
-            match self.inbox.wait(None)? {
-                Task::Trace(request) => return Some(request),
-                Task::Answer(..) => {}
-            }
-        }
-    }
-
-    /// The next request; none at the end, or when `patience` is over. Questions are answered on the way.
-    fn next(
-        &self,
-        engine: &mut dyn Engine,
-        patience: Option<Duration>,
-    ) -> Result<Option<Request>, TraceError> {
-        loop {
-            match self.inbox.wait(patience) {
-                None => return Ok(None),
-                Some(Task::Trace(request)) => return Ok(Some(request)),
-                Some(Task::Answer(wanted, pixel)) => {
-                    let view = wanted.view(wanted.size, &wanted.settings);
-                    if let Some((nodes, is_strict)) = engine.tree(&view, &wanted.settings, pixel)? {
-                        (self.say)(Report::Tree { pixel, nodes, is_strict });
-                    }
-                }
-            }
-        }
-    }
-
-    /// Trace requests of one scene on one device; returns the first of another.
-    fn serve(&mut self, engine: &mut dyn Engine, first: Request) -> Result<Option<Request>, TraceError> {
-        let backend = first.wanted.clone();
-        let mut request = first;
-        loop {
-            self.settle(engine, &request)?;
-            self.trace_in_motion(engine, &request)?;
-            let next = match self.next(engine, Some(REST))? {
-                Some(next) => Some(next),
-                None => {
-                    self.trace_at_rest(engine, &request)?;
-                    self.next(engine, None)?
-                }
-            };
-            match next {
-                Some(next) if next.wanted.is_on(&backend) => request = next,
-                other => return Ok(other),
-            }
-        }
-    }
-
-    /// See that a pipeline is there which serves the request, unless another comes before.
-    fn settle(&self, engine: &mut dyn Engine, request: &Request) -> Result<(), TraceError> {
-        let rest = request.wanted.settings;
-        for settings in [in_motion(&rest), rest] {
-            if engine.is_ready(&settings) {
-                continue;
-            }
-            (self.say)(Report::Compiling(true));
-            while !engine.prepare(&settings)? && self.inbox.serial() == request.serial {
-                thread::sleep(Duration::from_millis(5));
-            }
-            (self.say)(Report::Compiling(false));
-        }
-        Ok(())
-    }
-
-    /// One sample of as many pixels as there is time for.
-    fn trace_in_motion(&mut self, engine: &mut dyn Engine, request: &Request) -> Result<(), TraceError> {
-        let wanted = &request.wanted;
-        let settings = in_motion(&wanted.settings);
-        if !engine.is_ready(&settings) {
-            return Ok(());
-        }
-        let size = engine.fitting(wanted.size_in_motion(self.scale), &settings)?;
-        let start = Instant::now();
-        let view = View { samples: 1, ..wanted.view(size, &settings) };
-        let exposure = engine.expose(&view, &settings, &|_| ControlFlow::Continue(()))?;
-        if wanted.resolution == Resolution::Auto {
-            self.scale.took(wanted.size, start.elapsed());
-        }
-        if let Some(exposure) = exposure {
-            self.tell(exposure, request, Kind::Motion);
-        }
-        Ok(())
-    }
-
-    /// The whole picture, shown as it grows, until something else is asked for.
-    fn trace_at_rest(&self, engine: &mut dyn Engine, request: &Request) -> Result<(), TraceError> {
-        let wanted = &request.wanted;
-        if !engine.is_ready(&wanted.settings) {
-            return Ok(());
-        }
-        let size = engine.fitting(wanted.size_at_rest(), &wanted.settings)?;
-        let shown = Mutex::new(Instant::now());
-        let listen = |exposure: Option<&Exposure>| {
-            if self.inbox.serial() != request.serial {
-                return ControlFlow::Break(());
-            }
-            let mut shown = shown.lock().unwrap_or_else(PoisonError::into_inner);
-            let something = |exposure: &&Exposure| exposure.blocks + exposure.passes > 0;
-            if let Some(exposure) = exposure.filter(something)
-                && shown.elapsed() > SHOW
-            {
-                *shown = Instant::now();
-                self.tell(exposure.clone(), request, Kind::Growing);
-            }
-            ControlFlow::Continue(())
-        };
-        if let Some(exposure) =
-            engine.expose(&wanted.view(size, &wanted.settings), &wanted.settings, &listen)?
-        {
-            self.tell(exposure, request, Kind::Complete);
-            self.compare(request, size)?;
-            engine.prepare_for_changes(&wanted.settings);
-        }
-        Ok(())
-    }
-
-    /// The finished picture once more, by the CPU, if that is asked for.
-    fn compare(&self, request: &Request, size: [u32; 2]) -> Result<(), TraceError> {
-        let wanted = &request.wanted;
-        if !wanted.compares {
-            return Ok(());
-        }
-        let mut engine = CpuEngine::new(&wanted.stage.flat.scene, wanted.threads, &self.device)?;
-        let listen = |_: Option<&Exposure>| {
-            if self.inbox.serial() == request.serial {
-                ControlFlow::Continue(())
-            } else {
-                ControlFlow::Break(())
-            }
-        };
-        if let Some(exposure) =
-            engine.expose(&wanted.view(size, &wanted.settings), &wanted.settings, &listen)?
-        {
-            self.tell(exposure, request, Kind::Reference);
-        }
-        Ok(())
-    }
-
-    fn tell(&self, exposure: Exposure, request: &Request, kind: Kind) {
-        let traced = Traced { exposure, serial: request.serial, kind, age: request.since.elapsed() };
-        (self.say)(Report::Traced(traced));
     }
 }

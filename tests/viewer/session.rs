@@ -106,16 +106,29 @@ fn a_hand_orbits_resizes_drops_breaks_and_repairs_and_all_is_answered() {
     write(
         "script.txt",
         &format!(
-            "wait rest
-             screenshot first.png
-             orbit 150 40 12
+            "orbit 150 40 12
              wheel 3 3
              pan -40 20 3
+             resize 320 180
+             key Home
+             wait rest
+             screenshot first.png
+             orbit 40 10 4
              wait rest
              screenshot orbited.png
              key Home
              wait rest
              screenshot home.png
+             click 160 90
+             expect tree air → glass
+             expect tree refraction
+             wait 200
+             screenshot clicked.png
+             orbit 40 10 4
+             wait rest
+             screenshot kept.png
+             key Home
+             wait rest
              resize 480 270
              wait rest
              expect size 480 270
@@ -157,7 +170,7 @@ fn a_hand_orbits_resizes_drops_breaks_and_repairs_and_all_is_answered() {
              quit"
         ),
     );
-    let words = ["view", "ball.toml", "--backend", "gpu", "--size", "320x180", "--script", "script.txt"];
+    let words = ["view", "ball.toml", "--backend", "gpu", "--size", "960x540", "--script", "script.txt"];
     let run = snellius(&display, folder.path(), &words);
     assert_eq!(run.code, Some(0), "{run:?}");
     let shot = |name: &str| {
@@ -172,9 +185,92 @@ fn a_hand_orbits_resizes_drops_breaks_and_repairs_and_all_is_answered() {
     for other in ["orbited.png", "other.png", "views.png"] {
         assert_ne!(shot(other), first, "{other}");
     }
+    // The clicked pixel's rays lie over the picture, and stay in the scene while it turns.
+    for (with, without) in [("clicked.png", "first.png"), ("kept.png", "orbited.png")] {
+        let (with, without) = (shot(with), shot(without));
+        let drawn = with.pixels().zip(without.pixels()).filter(|(a, b)| a != b).count();
+        assert!((100..320 * 180 / 4).contains(&drawn), "{drawn} pixels of rays");
+    }
     let timings: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
     assert!(timings["answers"].as_u64().unwrap() >= 18, "{timings}");
     assert!(timings["slowest_frame_ms"].as_f64().unwrap() < 1000.0, "{timings}");
+    let times = |name: &str| timings[name].as_array().unwrap().len() as u64;
+    assert_eq!(timings["answers"].as_u64(), Some(times("each_answer")), "{timings}");
+    assert_eq!(timings["frames"].as_u64(), Some(times("each_frame")), "{timings}");
+}
+
+#[test]
+fn a_turntable_of_the_window_is_that_of_render() {
+    let Some(display) = Display::open() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("ball.toml"), BALL).unwrap();
+    let script = "wait rest\nturntable 3\nexpect toast 3 pictures are in ball-turn-001\n";
+    fs::write(folder.path().join("script.txt"), script).unwrap();
+    let words = ["view", "ball.toml", "--backend", "gpu", "--size", "64x48", "--script", "script.txt"];
+    let shown = snellius(&display, folder.path(), &words);
+    assert_eq!(shown.code, Some(0), "{shown:?}");
+    let words =
+        ["render", "ball.toml", "-o", "ball.png", "--turntable", "3", "--backend", "cpu", "--size", "64x48"];
+    let rendered = snellius(&display, folder.path(), &words);
+    assert_eq!(rendered.code, Some(0), "{rendered:?}");
+    let turn = folder.path().join("ball-turn-001");
+    for name in ["ball-000.png", "ball-001.png", "ball-002.png"] {
+        assert!(pixels(&turn.join(name)) == pixels(&folder.path().join(name)), "{name}");
+    }
+    assert!(pixels(&turn.join("ball-000.png")) != pixels(&turn.join("ball-001.png")));
+    assert_eq!(fs::read_dir(turn).unwrap().count(), 3);
+}
+
+#[test]
+fn changed_shaders_are_compiled_and_broken_ones_told_with_their_line() {
+    let Some(display) = Display::open() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let shaders = folder.path().join("shaders");
+    fs::create_dir(&shaders).unwrap();
+    for (stem, text) in snellius::gpu::SOURCES {
+        fs::write(shaders.join(stem).with_extension("wgsl"), text).unwrap();
+    }
+    let (_, sky) = snellius::gpu::SOURCES.iter().find(|(stem, _)| *stem == "background").unwrap();
+    let changed = |from: &str, to: &str| {
+        assert!(sky.contains(from));
+        sky.replace(from, to)
+    };
+    fs::write(folder.path().join("broken.wgsl"), changed("least(greatest(direction.y", "least(greatest(up"))
+        .unwrap();
+    fs::write(folder.path().join("dark.wgsl"), changed("return horizon +", "return 0.25 * horizon +"))
+        .unwrap();
+    fs::write(folder.path().join("ball.toml"), BALL).unwrap();
+    let script = "wait rest
+                  key Escape
+                  screenshot first.png
+                  copy broken.wgsl shaders/background.wgsl
+                  expect toast shaders/background.wgsl:18:
+                  wait rest
+                  key Escape
+                  screenshot kept.png
+                  copy dark.wgsl shaders/background.wgsl
+                  expect toast the shaders are compiled
+                  wait rest
+                  key Escape
+                  screenshot dark.png";
+    fs::write(folder.path().join("script.txt"), script).unwrap();
+    let words = [
+        "view",
+        "ball.toml",
+        "--backend",
+        "gpu",
+        "--size",
+        "64x48",
+        "--shaders",
+        "shaders",
+        "--script",
+        "script.txt",
+    ];
+    let shown = snellius(&display, folder.path(), &words);
+    assert_eq!(shown.code, Some(0), "{shown:?}");
+    let top = |name: &str| pixels(&folder.path().join(name)).get_pixel(32, 2).0;
+    assert_eq!(top("kept.png"), top("first.png"));
+    assert!(top("dark.png")[0] + 20 < top("first.png")[0], "{:?} {:?}", top("dark.png"), top("first.png"));
 }
 
 #[test]
@@ -223,6 +319,10 @@ fn a_script_that_is_not_met_fails_with_its_line() {
     let run = snellius(&display, folder.path(), &words);
     assert_eq!(run.code, Some(1), "{run:?}");
     assert!(run.stderr.contains("script.txt:2: the picture has [64, 48] pixels"), "{run:?}");
+    fs::write(folder.path().join("script.txt"), "wait rest\nexpect tree glass\n").unwrap();
+    let run = snellius(&display, folder.path(), &words);
+    assert_eq!(run.code, Some(1), "{run:?}");
+    assert!(run.stderr.contains("script.txt:2: no line of the pixel's tree holds `glass`"), "{run:?}");
     fs::write(folder.path().join("script.txt"), "wait rest\nexpect much\n").unwrap();
     let run = snellius(&display, folder.path(), &words);
     assert!(run.code == Some(2) && run.stderr.contains("script.txt:2: `expect much` is no event"), "{run:?}");

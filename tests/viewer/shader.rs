@@ -13,11 +13,11 @@ use crate::lockstep::devices::find;
 const SIZE: [u32; 2] = [96, 64];
 
 /// A film of a scene, and the same as a frame.
-fn traced(device: &SharedDevice, samples: u32) -> (Exposure, Frame) {
+fn traced(device: &SharedDevice, size: [u32; 2], samples: u32) -> (Exposure, Frame) {
     let path = super::scene("goblet.toml");
     let stage = Stage::of(&path, Scene::load(&path).unwrap()).unwrap();
     let settings = Settings { samples, depth: 8, aovs: true, ..Settings::default() };
-    let view = snellius::flatten::view(&stage.scene.camera, &stage.flat.scene, SIZE, None, &settings);
+    let view = snellius::flatten::view(&stage.scene.camera, &stage.flat.scene, size, None, &settings);
     let mut renderer = GpuRenderer::on(device, &stage.flat.scene).unwrap();
     let exposure = renderer.expose(&view, &settings, &|_| ControlFlow::Continue(())).unwrap();
     let frame = renderer.render(&view, &settings, &()).unwrap();
@@ -78,7 +78,7 @@ fn a_window_shows_the_codes_of_a_png_file() {
     for part in ["llvmpipe", "swiftshader"] {
         let Some(options) = find(part) else { return };
         let device = SharedDevice::new(&options).unwrap();
-        let (exposure, frame) = traced(&device, 2);
+        let (exposure, frame) = traced(&device, SIZE, 2);
         for exposure_ev in [0.0, -1.5] {
             let look = Look { coarse: Some(exposure.clone()), exposure: exposure_ev, ..Look::default() };
             let development = Development { exposure: exposure_ev, ..Development::default() };
@@ -93,7 +93,7 @@ fn a_window_shows_the_codes_of_a_png_file() {
 fn false_colours_are_those_of_the_command_line() {
     let Some(options) = find("llvmpipe") else { return };
     let device = SharedDevice::new(&options).unwrap();
-    let (exposure, frame) = traced(&device, 2);
+    let (exposure, frame) = traced(&device, SIZE, 2);
     for kind in AovKind::ALL {
         let look = Look { coarse: Some(exposure.clone()), first: ViewKind::Aov(kind), ..Look::default() };
         let expected = kind.preview(&frame).unwrap().pixels;
@@ -108,8 +108,8 @@ fn false_colours_are_those_of_the_command_line() {
 fn a_film_in_work_shows_the_mean_of_its_samples_and_the_last_picture_elsewhere() {
     let Some(options) = find("llvmpipe") else { return };
     let device = SharedDevice::new(&options).unwrap();
-    let (coarse, _) = traced(&device, 1);
-    let (complete, _) = traced(&device, 2);
+    let (coarse, _) = traced(&device, SIZE, 1);
+    let (complete, _) = traced(&device, SIZE, 2);
     let of = |fine: Option<Exposure>| Look { coarse: Some(coarse.clone()), fine, ..Look::default() };
     // Nothing of it is there yet.
     let none = Exposure { passes: 0, blocks: 0, ..complete.clone() };
@@ -125,7 +125,7 @@ fn a_film_in_work_shows_the_mean_of_its_samples_and_the_last_picture_elsewhere()
 fn a_bit_that_differs_from_the_cpus_picture_is_seen() {
     let Some(options) = find("llvmpipe") else { return };
     let device = SharedDevice::new(&options).unwrap();
-    let (exposure, mut frame) = traced(&device, 2);
+    let (exposure, mut frame) = traced(&device, SIZE, 2);
     let bits = frame.texels[777].radiance[1].to_bits();
     frame.texels[777].radiance[1] = f32::from_bits(bits ^ 1);
     let reference = Some(Exposure::of_frame(&device, &frame).unwrap());
@@ -133,4 +133,45 @@ fn a_bit_that_differs_from_the_cpus_picture_is_seen() {
     let found = shown(&device, &look);
     let differing: Vec<_> = (0..found.len()).filter(|&pixel| found[pixel] != [0; 3]).collect();
     assert_eq!(differing, [777]);
+}
+
+#[test]
+fn a_film_of_fewer_pixels_is_shown_between_them() {
+    let Some(options) = find("llvmpipe") else { return };
+    let device = SharedDevice::new(&options).unwrap();
+    let [width, height] = SIZE.map(|side| side / 2);
+    let (coarse, frame) = traced(&device, [width, height], 1);
+    let found = shown(&device, &Look { coarse: Some(coarse), ..Look::default() });
+    let display = Development::default().apply(&frame.radiance());
+    let code = |x: i64, y: i64, channel: usize| {
+        let (x, y) = (x.clamp(0, i64::from(width) - 1), y.clamp(0, i64::from(height) - 1));
+        f64::from(srgb_code(display[(y * i64::from(width) + x) as usize][channel], 255))
+    };
+    for (index, pixel) in found.iter().enumerate() {
+        let at = [index % SIZE[0] as usize, index / SIZE[0] as usize].map(|side| side as f64 / 2.0 - 0.25);
+        let [x, y] = at.map(|side| side.floor() as i64);
+        let [u, v] = at.map(|side| side - side.floor());
+        for channel in 0..3 {
+            let row = |y| code(x, y, channel) * (1.0 - u) + code(x + 1, y, channel) * u;
+            let expected = row(y) * (1.0 - v) + row(y + 1) * v;
+            // Devices weigh texels with eight bits.
+            assert!((f64::from(pixel[channel]) - expected).abs() <= 2.0, "{index}: {pixel:?} {expected}");
+        }
+    }
+}
+
+#[test]
+fn the_upper_part_of_a_small_film_in_work_lies_over_the_last_picture() {
+    let Some(options) = find("llvmpipe") else { return };
+    let device = SharedDevice::new(&options).unwrap();
+    let (coarse, _) = traced(&device, SIZE, 1);
+    let (small, _) = traced(&device, SIZE.map(|side| side / 2), 1);
+    let before = shown(&device, &Look { coarse: Some(coarse.clone()), ..Look::default() });
+    let after = shown(&device, &Look { coarse: Some(small.clone()), ..Look::default() });
+    // Six blocks a row: the first of four rows is there, of which the last line would look at the second.
+    let some = Exposure { passes: 0, blocks: 7, ..small };
+    let mixed = shown(&device, &Look { coarse: Some(coarse), fine: Some(some), ..Look::default() });
+    let row = SIZE[0] as usize * 15;
+    assert!(mixed[..row] == after[..row] && mixed[row..] == before[row..]);
+    assert!(after != before);
 }

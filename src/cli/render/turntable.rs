@@ -1,7 +1,5 @@
 //! `render --turntable`: pictures from round the target.
 
-use std::path::{Path, PathBuf};
-
 use super::super::console::Console;
 use super::super::device::Device;
 use super::super::prepare::Prepared;
@@ -10,7 +8,7 @@ use super::super::{CliError, Outcome};
 use super::Job;
 use super::config::RenderConfig;
 use super::export::write_radiance;
-use crate::film::{Output, Renderer};
+use crate::film::{Output, Renderer, numbered};
 use crate::flatten;
 use crate::layout::{EffectSet, Settings};
 use crate::scene::RenderDefaults;
@@ -43,21 +41,4 @@ pub(super) fn run(
         }
     }
     Ok(Outcome::Done)
-}
-
-/// `ice.png` becomes `ice-007.png`.
-fn numbered(path: &Path, number: u32) -> PathBuf {
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    let extension = path.extension().unwrap_or_default().to_string_lossy();
-    path.with_file_name(format!("{stem}-{number:03}.{extension}"))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn pictures_are_numbered_before_their_extension() {
-        assert_eq!(numbered(Path::new("a/ice.v2.png"), 7), Path::new("a/ice.v2-007.png"));
-    }
 }

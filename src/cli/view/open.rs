@@ -57,6 +57,9 @@ pub(in crate::cli) struct ViewArgs {
     #[arg(long, value_name = "N", default_value = "1", requires = "screenshot", help_heading = "Without a hand",
         value_parser = |text: &str| whole_in(text, 1, 100_000))]
     frames: u32,
+    /// Trace by the shader files of this folder, and compile them again when they change: for work on shaders
+    #[arg(long, value_name = "DIR")]
+    shaders: Option<PathBuf>,
     /// Play events from a file, and print what the session took as JSON: docs/viewer.md lists the events
     #[arg(long, value_name = "FILE", conflicts_with = "screenshot", help_heading = "Without a hand")]
     script: Option<PathBuf>,
@@ -96,6 +99,7 @@ pub(in crate::cli) fn run(args: ViewArgs, console: Console) -> Result<Outcome, C
         backend,
         threads,
         gpu: GpuOptions { adapter, pipeline_cache: pipeline_folder() },
+        shaders: args.shaders,
         size,
         screenshot,
         script,

@@ -2,6 +2,7 @@
 
 mod device;
 mod effects;
+mod files;
 mod help;
 mod pixel;
 mod quality;
@@ -61,6 +62,7 @@ fn panel(ui: &mut Ui, session: &mut Session) {
         section(ui, "Quality", true, |ui| quality::show(ui, session));
         section(ui, "Effects", true, |ui| effects::show(ui, session));
         section(ui, "Pixel", true, |ui| pixel::show(ui, session));
+        section(ui, "Files", false, |ui| files::show(ui, session));
         section(ui, "Lights", false, |ui| scene::lights(ui, session));
         section(ui, "Materials", false, |ui| scene::materials(ui, session));
         section(ui, "Device", false, |ui| device::show(ui, session));

@@ -5,6 +5,7 @@
 
 use std::path::Path;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use egui::accesskit::Toggled;
 use egui::{Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, Vec2};
@@ -16,9 +17,10 @@ use super::show;
 use crate::film::AovKind;
 use crate::gpu::{AdapterKind, AdapterReport, Promises};
 use crate::layout::{Effect, EffectChoice, Settings};
+use crate::viewer::inspection::{Inspection, line};
 use crate::viewer::session::{Order, Session};
 use crate::viewer::stage::Stage;
-use crate::viewer::{Backend, Kind, Orbit, ViewKind};
+use crate::viewer::{Backend, Kind, Orbit, Turning, ViewKind};
 
 fn adapter(name: &str, strict_float: bool, f64: bool) -> AdapterReport {
     AdapterReport {
@@ -183,6 +185,37 @@ fn the_list_of_shortcuts_opens_and_closes_by_its_key() {
     harness.key_press(Key::H);
     harness.run_steps(8);
     assert!(!harness.state().is_help_open);
+}
+
+#[test]
+fn a_clicked_pixel_shows_its_rays_as_an_outline() {
+    let mut harness = harness();
+    let inspection = Inspection::of(harness.state(), [600, 400], [300, 200]);
+    let lines: Vec<String> = inspection.tree.nodes.iter().map(line).collect();
+    assert!(lines.len() > 1, "a prism refracts: {lines:?}");
+    harness.state_mut().inspection = Some(inspection);
+    harness.run_steps(4);
+    harness.get_by_label_contains("pixel 300, 200");
+    harness.get_by_label(&lines[0]);
+}
+
+#[test]
+fn a_turntable_is_ordered_and_stopped() {
+    let mut harness = harness();
+    harness.get_by_label("Files").click();
+    harness.run_steps(20);
+    harness.get_by_label("write turntable").scroll_to_me();
+    harness.run_steps(20);
+    harness.get_by_label("write turntable").click();
+    harness.run_steps(3);
+    assert_eq!(harness.state().orders, [Order::Turntable(36)]);
+    let stop = Arc::new(AtomicBool::new(false));
+    harness.state_mut().turning = Some(Turning { done: 5, of: 36, stop: Arc::clone(&stop) });
+    harness.run_steps(3);
+    harness.get_by_label("stop").click();
+    harness.run_steps(3);
+    assert!(stop.load(Ordering::Relaxed) && harness.state().turning.is_none());
+    harness.get_by_label("stopped: 5 of 36 pictures are written");
 }
 
 #[test]
