@@ -10,7 +10,7 @@ use crate::film::{Frame, Renderer};
 use crate::flatten::{flatten, view};
 use crate::gpu::InvocationMemory;
 use crate::layout::{Effect, EffectChoice, EffectSet, FlatScene, Scan, Settings, View};
-use crate::scene::Scene;
+use crate::scene::{Camera, Scene};
 
 /// Fresh renderers that each side compiles in, for a median.
 const COMPILES: usize = 3;
@@ -21,11 +21,12 @@ const GLANCE: [u32; 2] = [8, 8];
 pub struct Stage {
     /// Its file's name.
     pub name: String,
-    scene: FlatScene,
+    pub(super) scene: FlatScene,
+    camera: Camera,
     view: View,
     /// The same of a few pixels.
-    glance: View,
-    settings: Settings,
+    pub(super) glance: View,
+    pub(super) settings: Settings,
 }
 
 /// A figure of the special side and of the general one.
@@ -65,13 +66,25 @@ impl Stage {
     /// # Errors
     /// [`BenchError::Scene`].
     pub fn load(path: &Path, size: [u32; 2]) -> Result<Self, BenchError> {
-        let scene = Scene::load(path)?;
-        let flat = flatten(&scene)?.scene;
+        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+        Self::of(name, &Scene::load(path)?, size)
+    }
+
+    /// Flatten a scene of that name.
+    ///
+    /// # Errors
+    /// [`BenchError::Scene`].
+    pub(super) fn of(name: String, scene: &Scene, size: [u32; 2]) -> Result<Self, BenchError> {
+        let flat = flatten(scene)?.scene;
         let (depth, cutoff) = (scene.render.depth, scene.render.cutoff as f32);
         let settings = Settings { depth, cutoff, samples: 1, ..Settings::default() };
         let [view, glance] = [size, GLANCE].map(|size| view(&scene.camera, &flat, size, None, &settings));
-        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-        Ok(Self { name, scene: flat, view, glance, settings })
+        Ok(Self { name, scene: flat, camera: scene.camera.clone(), view, glance, settings })
+    }
+
+    /// A view of it of another size, under other settings.
+    pub(super) fn view_of(&self, size: [u32; 2], settings: &Settings) -> View {
+        view(&self.camera, &self.scene, size, None, settings)
     }
 
     /// The effects that it calls for.
@@ -193,11 +206,11 @@ impl<'a> Side<'a> {
 }
 
 /// Whether both frames show the same, bit for bit, after as many rays of each kind.
-fn is_same(a: &Frame, b: &Frame) -> bool {
+pub(super) fn is_same(a: &Frame, b: &Frame) -> bool {
     a.rays == b.rays && bytemuck::cast_slice::<_, u32>(&a.texels) == bytemuck::cast_slice::<_, u32>(&b.texels)
 }
 
-fn milliseconds(time: Duration) -> f64 {
+pub(super) fn milliseconds(time: Duration) -> f64 {
     time.as_secs_f64() * 1e3
 }
 

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Chance that an interval misses the ratio that it is for, at each of its ends.
 const TAIL: f64 = 0.025;
@@ -56,7 +56,7 @@ pub fn median(times: &[Duration]) -> Duration {
 }
 
 /// How many times as long one side takes as the other.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Ratio {
     /// Median of the rounds' ratios.
     pub median: f64,
@@ -78,19 +78,48 @@ impl Ratio {
     #[must_use]
     pub fn of(times: &[Duration], others: &[Duration]) -> Self {
         let pairs = times.iter().zip(others);
-        let mut ratios: Vec<f64> =
+        let ratios: Vec<f64> =
             pairs.map(|(a, b)| a.as_secs_f64() / b.as_secs_f64().max(f64::MIN_POSITIVE)).collect();
-        ratios.sort_by(f64::total_cmp);
-        let n = ratios.len();
-        if n == 0 {
+        if ratios.is_empty() {
             return Self { median: 1.0, low: 1.0, high: 1.0 };
+        }
+        let Spread { median, low, high } = Spread::of(ratios);
+        Self { median, low, high }
+    }
+}
+
+/// Any figure of several rounds: the median, with the interval that [`Ratio`] describes.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Spread {
+    /// The median.
+    pub median: f64,
+    /// Lower end of the interval.
+    pub low: f64,
+    /// Its upper end.
+    pub high: f64,
+}
+
+impl Spread {
+    /// Of the rounds' figures; all 0 of none.
+    #[must_use]
+    pub fn of(mut values: Vec<f64>) -> Self {
+        values.sort_by(f64::total_cmp);
+        let n = values.len();
+        if n == 0 {
+            return Self::default();
         }
         let outside = ends_beyond(n).saturating_sub(1);
         Self {
-            median: f64::midpoint(ratios[(n - 1) / 2], ratios[n / 2]),
-            low: ratios[outside],
-            high: ratios[n - 1 - outside],
+            median: f64::midpoint(values[(n - 1) / 2], values[n / 2]),
+            low: values[outside],
+            high: values[n - 1 - outside],
         }
+    }
+
+    /// Of the rounds' times, in milliseconds.
+    #[must_use]
+    pub fn of_times(times: &[Duration]) -> Self {
+        Self::of(times.iter().map(|time| time.as_secs_f64() * 1e3).collect())
     }
 }
 
@@ -143,5 +172,8 @@ mod tests {
         let times: Vec<_> = (1..=9).map(Duration::from_secs).collect();
         let ratio = Ratio::of(&times, &[Duration::from_secs(1); 9]);
         assert_eq!((ratio.low, ratio.median, ratio.high), (2.0, 5.0, 8.0));
+        let spread = Spread::of_times(&times);
+        assert_eq!((spread.low, spread.median, spread.high), (2e3, 5e3, 8e3));
+        assert_eq!(Spread::of(vec![]), Spread::default());
     }
 }

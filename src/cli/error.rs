@@ -73,6 +73,8 @@ pub(super) enum CliError {
     #[error(transparent)]
     Rays(#[from] RayError),
     #[error(transparent)]
+    Bench(BenchError),
+    #[error(transparent)]
     Study(StudyError),
     #[cfg(feature = "viewer")]
     #[error(transparent)]
@@ -88,6 +90,8 @@ impl From<BenchError> for CliError {
             BenchError::Gpu(error) => Self::Gpu(error),
             BenchError::Scene(error) => Self::Scene(error),
             BenchError::Rays(error) => Self::Rays(error),
+            BenchError::Encode(error) => Self::Encode(error),
+            other @ BenchError::Folder(_) => Self::Bench(other),
         }
     }
 }
@@ -151,6 +155,7 @@ impl CliError {
             | Self::Load(_)
             | Self::Difference(_)
             | Self::Rays(_)
+            | Self::Bench(_)
             | Self::Study(_)
             | Self::Json(_) => 2,
         }

@@ -52,7 +52,8 @@ impl Context {
             required_features: adapter.features()
                 & (wgpu::Features::PASSTHROUGH_SHADERS
                     | wgpu::Features::SHADER_F64
-                    | wgpu::Features::PIPELINE_CACHE),
+                    | wgpu::Features::PIPELINE_CACHE
+                    | wgpu::Features::TIMESTAMP_QUERY),
             required_limits: limits(&report),
             ..wgpu::DeviceDescriptor::default()
         };

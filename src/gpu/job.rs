@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 
 use super::GpuError;
 use super::blocks::Blocks;
+use super::clock::Clock;
 use super::context::Context;
 use super::film::{FilmBuffer, Pixels};
 use super::pace::Pace;
@@ -19,6 +20,8 @@ const CANARY_ROUNDS: u32 = 8;
 /// One picture in work.
 pub(super) struct Job<'a> {
     pub(super) context: &'a Context,
+    /// Measures its passes, where the renderer was asked to.
+    pub(super) clock: Option<&'a Clock>,
     pub(super) pipeline: wgpu::ComputePipeline,
     /// Holds `band_height` rows.
     pub(super) film: Arc<FilmBuffer>,
@@ -110,9 +113,11 @@ impl Job<'_> {
     pub(super) fn run(&self, pipeline: &wgpu::ComputePipeline, head: FilmHead) -> Result<FilmHead, GpuError> {
         let tile = head.tile;
         self.film.set_head(self.context, head);
+        let timestamp_writes = self.clock.map(|clock| clock.next_pass(self.context)).transpose()?;
         let mut encoder = self.context.encoder();
         {
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            let mut pass =
+                encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: None, timestamp_writes });
             pass.set_pipeline(pipeline);
             pass.set_bind_group(0, &self.group, &[]);
             pass.dispatch_workgroups(tile.block_count, 1, 1);

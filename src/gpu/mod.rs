@@ -21,6 +21,7 @@ mod assemble;
 mod blocks;
 mod buffers;
 mod cache;
+mod clock;
 mod context;
 mod error;
 mod exposure;

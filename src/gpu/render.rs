@@ -10,6 +10,7 @@ use serde::Serialize;
 use super::adaptive::Sifter;
 use super::blocks::Blocks;
 use super::buffers::SceneBuffers;
+use super::clock::Clock;
 use super::context::Context;
 use super::film::{FilmBuffer, PixelLayout};
 use super::job::Job;
@@ -42,6 +43,8 @@ pub struct GpuRenderer {
     upload: Duration,
     pipelines: Pipelines,
     pub(super) sifters: HashMap<Variant, Sifter>,
+    /// Measures its passes, once it is asked to.
+    clock: Option<Clock>,
     /// Variants that have been dispatched.
     warm: HashSet<Variant>,
     /// Those that are lent out are not written to.
@@ -99,6 +102,7 @@ impl GpuRenderer {
             upload: start.elapsed(),
             pipelines,
             sifters: HashMap::new(),
+            clock: None,
             warm: HashSet::new(),
             pace: None,
             films: Vec::new(),
@@ -161,6 +165,24 @@ impl GpuRenderer {
         Ok(())
     }
 
+    /// From now on let the adapter measure its passes, if it can: [`device_time`](Self::device_time) tells.
+    ///
+    /// # Errors
+    /// [`GpuError::OutOfMemory`], [`GpuError::DeviceLost`].
+    pub fn start_clock(&mut self) -> Result<(), GpuError> {
+        self.clock = Clock::new(&self.context)?;
+        Ok(())
+    }
+
+    /// What the passes of the last picture took by timestamps of the adapter, without the time that the host took to submit
+    /// them and to hear of them; none without timestamps, or before [`start_clock`](Self::start_clock).
+    ///
+    /// # Errors
+    /// [`GpuError::DeviceLost`].
+    pub fn device_time(&self) -> Result<Option<Duration>, GpuError> {
+        self.clock.as_ref().map(|clock| clock.elapsed(&self.context)).transpose()
+    }
+
     /// The memory that an invocation under these settings takes.
     ///
     /// # Errors
@@ -217,6 +239,7 @@ impl GpuRenderer {
         let group = self.scene.bind(&self.context, &film.buffer);
         let job = Job {
             context: &self.context,
+            clock: self.clock.as_ref(),
             pipeline: compiled.pipeline,
             film,
             group,
@@ -227,6 +250,9 @@ impl GpuRenderer {
         if is_cold {
             // Some drivers compile at the first dispatch: have one outside the picture.
             job.submit(Tile { first_block: blocks.count(), block_count: 1, ..Tile::default() })?;
+        }
+        if let Some(clock) = job.clock {
+            clock.reset();
         }
         Ok(job)
     }

@@ -4,12 +4,14 @@
 //! no legend). Text is set in a font that lies in the binary, so that plots look alike on a machine without any.
 
 mod canvas;
+mod dots;
 mod labels;
 mod panel;
 mod raster;
 mod scale;
 
 pub(crate) use canvas::{Anchor, Canvas, FONT_FAMILY, Type, escape};
+pub(crate) use dots::{DotSeries, Dots};
 pub(crate) use panel::{Axis, Kind, Line, Mark, Panel, Point, Rule, Series};
 pub use raster::RasterError;
 pub(crate) use raster::png_of;
@@ -51,11 +53,18 @@ pub(crate) struct Figure {
 impl Figure {
     /// The figure as an SVG document.
     pub(crate) fn svg(&self) -> String {
-        let count = self.panels.len().max(1) as f64;
-        let size = [count * PANEL[0] + (count - 1.0) * GAP, PANEL[1]];
+        self.svg_in_columns(self.panels.len())
+    }
+
+    /// The same with so many panels in a row, the others below.
+    pub(crate) fn svg_in_columns(&self, columns: usize) -> String {
+        let columns = columns.clamp(1, self.panels.len().max(1));
+        let counts = [columns, self.panels.len().div_ceil(columns).max(1)];
+        let place = |axis: usize, index: usize| index as f64 * (PANEL[axis] + GAP);
+        let size = [0, 1].map(|axis| place(axis, counts[axis]) - GAP);
         let mut canvas = Canvas::new(size, &self.title);
         for (index, panel) in self.panels.iter().enumerate() {
-            panel.draw(&mut canvas, [index as f64 * (PANEL[0] + GAP), 0.0], PANEL);
+            panel.draw(&mut canvas, [place(0, index % columns), place(1, index / columns)], PANEL);
         }
         canvas.finish()
     }

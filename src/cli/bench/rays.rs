@@ -87,7 +87,7 @@ pub(super) fn run(mesh: &Path, args: &BenchArgs, console: Console) -> Result<Out
     let mut measured = |set: &str, rays: &[RayRecord], query: Query| {
         console.detail(format!("{set}: {} rays", rays.len()));
         let Measured { runs, answers, faults: found } =
-            measure(&stage, set, rays, query, args.rounds as usize)?;
+            measure(&stage, set, rays, query, args.rounds_or_default() as usize)?;
         faults += found.len();
         found.into_iter().for_each(|fault| console.warn(fault));
         report.runs.extend(runs);
@@ -117,7 +117,7 @@ pub(super) fn run(mesh: &Path, args: &BenchArgs, console: Console) -> Result<Out
     if args.json {
         print_json(&report)?
     } else {
-        print(&page(&report, args.rounds))?
+        print(&page(&report, args.rounds_or_default()))?
     }
     Ok(if faults == 0 { Outcome::Done } else { Outcome::Failed })
 }

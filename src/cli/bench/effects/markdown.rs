@@ -1,6 +1,6 @@
 //! The measured figures as a page for people.
 
-use super::report::Report;
+use super::Report;
 use crate::bench::{EffectRow, Sides};
 use crate::gpu::InvocationMemory;
 
@@ -56,11 +56,11 @@ fn device_figures(row: &EffectRow) -> String {
 fn caption(report: &Report) -> String {
     let [width, height] = report.size;
     let machine = &report.machine;
-    let adapters: String = machine.adapters.iter().map(|adapter| format!("; {adapter}")).collect();
-    let cold = if machine.cold { "nothing kept by Mesa" } else { "shaders kept by the driver count" };
     format!(
         "\n{width}×{height}, one sample a pixel; trace times: medians of {} runs of each side in turn; every row's two \
-         pictures are the same bits. Compile (medians of three fresh renderers) and bytes: own effects, then all; {cold}. Version {}; {}, {} threads{adapters}.\n",
-        report.rounds, machine.version, machine.cpu, machine.threads
+         pictures are the same bits. Compile (medians of three fresh renderers) and bytes: own effects, then all; {}. {}\n",
+        report.rounds,
+        machine.shaders(),
+        machine.sentence()
     )
 }
