@@ -128,7 +128,7 @@ mod tests {
             for _ in 0..2 {
                 let host = renderer.render(&subject.view, &subject.settings, &()).unwrap().times.trace;
                 if let Some(device) = renderer.device_time().unwrap() {
-                    assert!(device > host / 20 && device <= host, "{device:?} of {host:?}");
+                    assert!(!device.is_zero() && device <= host, "{device:?} of {host:?}");
                 }
             }
         });

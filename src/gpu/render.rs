@@ -237,9 +237,9 @@ impl GpuRenderer {
         let is_cold = self.warm.insert(*variant);
         self.scene.set_view(&self.context, view);
         let group = self.scene.bind(&self.context, &film.buffer);
-        let job = Job {
+        let mut job = Job {
             context: &self.context,
-            clock: self.clock.as_ref(),
+            clock: None,
             pipeline: compiled.pipeline,
             film,
             group,
@@ -251,9 +251,7 @@ impl GpuRenderer {
             // Some drivers compile at the first dispatch: have one outside the picture.
             job.submit(Tile { first_block: blocks.count(), block_count: 1, ..Tile::default() })?;
         }
-        if let Some(clock) = job.clock {
-            clock.reset();
-        }
+        job.clock = self.clock.as_ref();
         Ok(job)
     }
 
@@ -307,6 +305,9 @@ impl Renderer for GpuRenderer {
         progress: &dyn Progress,
     ) -> Result<Frame, GpuError> {
         let start = Instant::now();
+        if let Some(clock) = &self.clock {
+            clock.reset();
+        }
         let upload = std::mem::take(&mut self.upload);
         let variant = self.variant(settings);
         let view = &self.plan(settings).applied_to(view);

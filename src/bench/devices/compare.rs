@@ -3,23 +3,17 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use super::host::{encode_time, preparation};
 use super::plan::{rounds_within, size_within};
 use super::row::{ByKind, DeviceRow, Scaling, SceneRow};
 use super::side::Side;
-use crate::bench::effects::{is_same, milliseconds};
+use crate::bench::effects::is_same;
 use crate::bench::{BenchError, BreakEven, Phases, Ratio, Spread, Stage, Target, median, take_turns};
-use crate::cpu::thread_pool;
-use crate::film::{BitDepth, Development, Frame, Metadata, encode_png};
-use crate::flatten::flatten;
+use crate::film::Frame;
 use crate::layout::{Float, Settings, View};
-use crate::scene::Scene;
 
 /// Width and height of the picture that tells what larger ones would take.
 const PILOT: [u32; 2] = [64, 48];
-/// Times that reading a scene and writing its picture are repeated, for a median.
-const REPEATS: usize = 3;
-/// No repetition begins after so long.
-const PATIENCE: Duration = Duration::from_secs(1);
 
 /// How devices are compared.
 #[derive(Debug, Clone)]
@@ -88,7 +82,7 @@ pub fn compare_devices(
 
 /// Devices in comparison, the judge first.
 struct Bench<'a> {
-    /// Spread of reading the scene and of building its tree with all threads.
+    /// Milliseconds of reading the scene and of building its tree with all threads.
     prepared: (f64, f64),
     sides: Vec<Side<'a>>,
     faults: Vec<String>,
@@ -133,46 +127,55 @@ impl<'a> Bench<'a> {
                 continue;
             }
             let started = Instant::now();
-            match side.trace(view) {
-                Ok((frame, _)) if is_same(&frame, &picture) => {
+            let traced = side.trace(view).map(|(frame, _)| is_same(&frame, &picture));
+            match fault(side.target, traced)? {
+                Some(fault) => self.faults.push(fault),
+                None => {
                     took += started.elapsed();
                     kept.push(side);
                 }
-                Ok(_) => self.faults.push(another_picture(side.target)),
-                Err(BenchError::Gpu(error)) => self.faults.push(format!("{}: {error}", side.target.name())),
-                Err(error) => return Err(error),
             }
         }
         self.sides = kept;
         Ok((picture, took))
     }
 
-    /// Trace on all sides in turn; those that trace another picture once are left out in the end.
+    /// Trace on all sides in turn; those that trace another picture once are traced no more and left out in the end.
     fn take_turns(&mut self, rounds: usize, view: &View, picture: &Frame) -> Result<(), BenchError> {
-        let mut strayed = vec![false; self.sides.len()];
+        let mut found: Vec<Option<String>> = vec![None; self.sides.len()];
         take_turns(rounds, self.sides.len(), |index| {
-            let took = self.sides[index].trace_as(view, picture)?;
-            strayed[index] |= took.is_none();
-            Ok::<_, BenchError>(took.unwrap_or_default())
-        })?;
-        // If the judge's pictures differ, nothing is proven.
-        let all = strayed.first() == Some(&true);
-        let mut strayed = strayed.into_iter();
-        let faults = &mut self.faults;
-        self.sides.retain_mut(|side| {
-            side.forget_warm_up();
-            let has_strayed = strayed.next().unwrap_or(true) || all;
-            if has_strayed {
-                faults.push(another_picture(side.target));
+            let side = &mut self.sides[index];
+            if found[index].is_some() {
+                return Ok(Duration::ZERO);
             }
-            !has_strayed
-        });
+            let took = side.trace_as(view, picture);
+            let time = took.as_ref().ok().copied().flatten().unwrap_or_default();
+            found[index] = fault(side.target, took.map(|time| time.is_some()))?;
+            Ok::<_, BenchError>(time)
+        })?;
+        // If the judge's pictures differ, nothing is proven of the others.
+        let judge = found.first().cloned().flatten();
+        let mut kept = Vec::new();
+        for (mut side, fault) in self.sides.drain(..).zip(found) {
+            side.forget_warm_up();
+            match fault.or_else(|| judge.clone()) {
+                Some(fault) => self.faults.push(fault),
+                None => kept.push(side),
+            }
+        }
+        self.sides = kept;
         Ok(())
     }
 }
 
-fn another_picture(target: &Target) -> String {
-    format!("{} traces another picture than the CPU", target.name())
+/// What is wrong with a side whose picture is the judge's or not; errors of an adapter are its own.
+fn fault(target: &Target, is_same: Result<bool, BenchError>) -> Result<Option<String>, BenchError> {
+    match is_same {
+        Ok(true) => Ok(None),
+        Ok(false) => Ok(Some(format!("{} traces another picture than the CPU", target.name()))),
+        Err(BenchError::Gpu(error)) => Ok(Some(format!("{}: {error}", target.name()))),
+        Err(error) => Err(error),
+    }
 }
 
 /// Figures of each side, the CPU's by threads, then adapters.
@@ -215,32 +218,6 @@ fn scaling(sides: &[Side<'_>]) -> Vec<Scaling> {
         .collect();
     rows.sort_by_key(|row| row.threads);
     rows
-}
-
-/// Median times in milliseconds of reading and flattening a scene, and of its tree, with so many threads; 0 for all.
-fn preparation(path: &Path, threads: usize) -> Result<(f64, f64), BenchError> {
-    let pool = thread_pool(threads)?;
-    let begun = Instant::now();
-    let (mut loads, mut trees) = (Vec::new(), Vec::new());
-    while loads.is_empty() || (loads.len() < REPEATS && begun.elapsed() < PATIENCE) {
-        let started = Instant::now();
-        let flat = pool.install(|| flatten(&Scene::load(path)?))?;
-        loads.push(started.elapsed().saturating_sub(flat.bvh_time));
-        trees.push(flat.bvh_time);
-    }
-    Ok((milliseconds(median(&loads)), milliseconds(median(&trees))))
-}
-
-/// The median time in milliseconds of making a PNG of a picture.
-fn encode_time(picture: &Frame) -> Result<f64, BenchError> {
-    let mut times = Vec::new();
-    for _ in 0..REPEATS {
-        let started = Instant::now();
-        let display = Development::default().apply(&picture.radiance());
-        encode_png(picture.width, picture.height, &display, BitDepth::default(), &Metadata::new())?;
-        times.push(started.elapsed());
-    }
-    Ok(milliseconds(median(&times)))
 }
 
 #[cfg(test)]

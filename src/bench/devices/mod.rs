@@ -5,6 +5,7 @@
 
 mod baseline;
 mod compare;
+mod host;
 mod phases;
 pub(super) mod plan;
 mod row;
