@@ -29,6 +29,8 @@ pub(crate) enum Line {
 pub(crate) enum Mark {
     Filled,
     Hollow,
+    /// Only for the line.
+    None,
 }
 
 /// A point with what is known of it.
@@ -187,7 +189,7 @@ impl Drawing<'_> {
     fn marks(&self, canvas: &mut Canvas, taken: &mut Taken) {
         // The last series lies deepest.
         for series in self.panel.series.iter().rev() {
-            for point in &series.points {
+            for point in series.points.iter().filter(|point| point.mark != Mark::None) {
                 let at = self.place(point);
                 if let Some([low, high]) = point.span {
                     taken.take([self.x.place(low), at[1] - 2.0, self.x.place(high), at[1] + 2.0]);

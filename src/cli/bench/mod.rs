@@ -147,3 +147,22 @@ fn color_of(index: usize) -> &'static str {
     let colors = [BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY, BLACK];
     colors[index % colors.len()]
 }
+
+/// A device's name without what its driver adds in brackets; software stays marked.
+fn short_name(device: &str) -> String {
+    const SOFTWARE: &str = " (software)";
+    let name = device.split(" (").next().unwrap_or(device);
+    if device.ends_with(SOFTWARE) { format!("{name}{SOFTWARE}") } else { name.to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn short_names_keep_the_mark_of_software() {
+        assert_eq!(short_name("llvmpipe (LLVM 15.0.6, 256 bits) (software)"), "llvmpipe (software)");
+        assert_eq!(short_name("AMD Radeon RX 6800 (RADV NAVI21)"), "AMD Radeon RX 6800");
+        assert_eq!(short_name("CPU, all threads"), "CPU, all threads");
+    }
+}

@@ -1,6 +1,6 @@
 //! The measured rates as a drawing.
 
-use super::super::color_of;
+use super::super::{color_of, short_name};
 use super::Report;
 use crate::bench::{DeviceRow, SceneRow};
 use crate::plot::{DotSeries, Dots};
@@ -14,7 +14,7 @@ pub(super) fn dots(report: &Report) -> Dots {
         }
     }
     let series = names.iter().enumerate().map(|(index, name)| DotSeries {
-        name: (*name).to_owned(),
+        name: short_name(name),
         color: color_of(index),
         values: report.scenes.iter().map(|row| rate(row, name)).collect(),
     });

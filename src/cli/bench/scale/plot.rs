@@ -1,6 +1,6 @@
 //! The measured times and the fitted powers as a drawing.
 
-use super::super::color_of;
+use super::super::{color_of, short_name};
 use crate::bench::Growth;
 use crate::plot::{Axis, Figure, Kind, Line, Mark, Panel, Point, Series};
 
@@ -31,7 +31,8 @@ fn panel(devices: &[&Growth]) -> Panel {
         let color = color_of(index);
         let measured = growth.points.iter().map(|at| point(f64::from(at.amount), at.trace_ms.median));
         series.push(Series {
-            name: format!("{}: slope {:.2}", growth.device, growth.slope.median),
+            name: format!("{}: slope {:.2}", short_name(&growth.device), growth.slope.median)
+                .replace('-', "−"),
             color,
             line: Line::None,
             points: measured.collect(),
@@ -39,7 +40,7 @@ fn panel(devices: &[&Growth]) -> Panel {
         let ends = [growth.points.first(), growth.points.last()].into_iter().flatten();
         let fitted = ends
             .map(|at| f64::from(at.amount))
-            .map(|x| Point { mark: Mark::Hollow, ..point(x, growth.fitted(x)) });
+            .map(|x| Point { mark: Mark::None, ..point(x, growth.fitted(x)) });
         series.push(Series { name: String::new(), color, line: Line::Solid, points: fitted.collect() });
     }
     Panel {
