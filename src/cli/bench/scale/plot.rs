@@ -29,10 +29,10 @@ fn panel(devices: &[&Growth]) -> Panel {
     for (index, growth) in devices.iter().enumerate() {
         let point = |x: f64, y: f64| Point { x, y, span: None, name: None, mark: Mark::Filled };
         let color = color_of(index);
+        let slope = format!("{:.2}", growth.slope.median).replace('-', "−");
         let measured = growth.points.iter().map(|at| point(f64::from(at.amount), at.trace_ms.median));
         series.push(Series {
-            name: format!("{}: slope {:.2}", short_name(&growth.device), growth.slope.median)
-                .replace('-', "−"),
+            name: format!("{}: slope {slope}", short_name(&growth.device)),
             color,
             line: Line::None,
             points: measured.collect(),
