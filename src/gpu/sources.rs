@@ -9,8 +9,8 @@ macro_rules! sources {
     ($($stem:literal)*) => { &[$(($stem, include_str!(concat!("../../shaders/", $stem, ".wgsl")))),*] };
 }
 
-/// Every file of `shaders/` that traces, by stem.
-pub const SOURCES: &[Source<'static>] = sources! {
+/// Every file of `shaders/` that traces, by stem. One object: who holds it is known by its address.
+pub static SOURCES: &[Source<'static>] = sources! {
     "adaptive"
     "background"
     "bindings"

@@ -98,7 +98,8 @@ impl Canvas {
         let target = self.acquire()?;
         if let Some(target) = &target {
             let view = target.texture.create_view(&wgpu::TextureViewDescriptor::default());
-            let size = [self.config.width, self.config.height];
+            // While a window is resized its surface may lag behind what it was told to be.
+            let size = [target.texture.width(), target.texture.height()];
             self.draw(&view, size, &painted, look, area);
         }
         self.free_textures(painted.textures);

@@ -83,11 +83,15 @@ pub(super) fn with_camera(text: &str, table: &str) -> Result<String, TomlError> 
     if let Some(before) = document.get_mut("camera").and_then(Item::as_table_mut) {
         before.retain(|key, _| camera.contains_key(key));
         for (key, item) in camera.iter_mut() {
-            if let (Some(value), Some(old)) = (item.as_value_mut(), before.get(&key).and_then(Item::as_value))
-            {
+            let mut new = std::mem::take(item);
+            let Some(old) = before.get_mut(&key) else {
+                before.insert(&key, new);
+                continue;
+            };
+            if let (Some(value), Some(old)) = (new.as_value_mut(), old.as_value()) {
                 *value.decor_mut() = old.decor().clone();
             }
-            before.insert(&key, std::mem::take(item));
+            *old = new;
         }
     } else {
         // An inline table would stand among the first keys: a table stands behind all.

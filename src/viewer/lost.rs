@@ -8,6 +8,7 @@ use winit::window::Window;
 use super::ViewerError;
 use super::app::Message;
 use super::canvas::Canvas;
+use super::panels;
 use super::session::Status;
 use super::tracer::Tracer;
 use super::window::Shown;
@@ -41,7 +42,7 @@ impl Shown {
         self.tracer = tracer(&self.canvas, &self.proxy, self.device);
         self.session.adapter = self.canvas.device.adapter().clone();
         // egui tells of its letters once only, unless its fonts change: by a family that nothing uses.
-        let mut fonts = egui::FontDefinitions::default();
+        let mut fonts = panels::fonts();
         fonts.families.insert(egui::FontFamily::Name(format!("device {}", self.device).into()), Vec::new());
         self.context.set_fonts(fonts);
         self.wanted = None;

@@ -18,6 +18,9 @@ use crate::film::Output;
 /// How often something that is waited for is looked at, where no event tells.
 const LOOK: Duration = Duration::from_millis(20);
 
+/// Time until a click into the picture has its pixel's tree.
+const CLICK: Duration = Duration::from_secs(5);
+
 /// What became of an act.
 enum Effect {
     /// The next one may come.
@@ -103,6 +106,7 @@ impl Shown {
                 if self.area[2..] != [width, height] {
                     return Ok(Effect::Awaited);
                 }
+                self.show_change();
             }
             Act::Minimise(is_down) => {
                 self.window.set_minimized(is_down);
@@ -180,6 +184,10 @@ impl Shown {
                 (traced == *is_cpu, format!("{:?} traces", self.session.backend))
             }
             Expectation::Tree(text) => {
+                let waited = self.player.as_ref().map_or(CLICK, |player| player.waited());
+                if self.session.inspection.is_none() && waited < CLICK {
+                    return Ok(Effect::Awaited);
+                }
                 let rays = self.session.inspection.iter().flat_map(|inspection| &inspection.tree.nodes);
                 let lines: Vec<String> = rays.map(line).collect();
                 let is_there = lines.iter().any(|line| line.contains(text));

@@ -20,8 +20,17 @@ use super::session::Session;
 /// Width of the panel in points.
 pub(super) const PANEL: f32 = 320.0;
 
+/// egui's fonts, and for what the proportional ones lack (arrows) that of even width.
+pub(super) fn fonts() -> egui::FontDefinitions {
+    let mut fonts = egui::FontDefinitions::default();
+    let even = fonts.families.get(&egui::FontFamily::Monospace).cloned().unwrap_or_default();
+    fonts.families.entry(egui::FontFamily::Proportional).or_default().extend(even);
+    fonts
+}
+
 /// Fonts and spacing of both themes.
 pub(super) fn style(context: &egui::Context) {
+    context.set_fonts(fonts());
     context.all_styles_mut(|style| {
         style.spacing.item_spacing = egui::vec2(8.0, 6.0);
         style.spacing.slider_width = 130.0;

@@ -13,7 +13,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use glam::DVec3;
 
-use super::show;
+use super::{show, style};
 use crate::film::AovKind;
 use crate::gpu::{AdapterKind, AdapterReport, Promises};
 use crate::layout::{Effect, EffectChoice, Settings};
@@ -59,6 +59,7 @@ fn harness() -> Harness<'static, Session> {
         show(ui, session);
     };
     let mut harness = Harness::builder().with_step_dt(STEP).with_size(WINDOW).build_ui_state(show, session());
+    style(&harness.ctx);
     harness.run_steps(4);
     harness
 }
@@ -202,6 +203,8 @@ fn a_clicked_pixel_shows_its_rays_as_an_outline() {
 #[test]
 fn a_turntable_is_ordered_and_stopped() {
     let mut harness = harness();
+    harness.get_by_label("Files").scroll_to_me();
+    harness.run_steps(20);
     harness.get_by_label("Files").click();
     harness.run_steps(20);
     harness.get_by_label("write turntable").scroll_to_me();
@@ -221,6 +224,8 @@ fn a_turntable_is_ordered_and_stopped() {
 #[test]
 fn a_device_is_picked() {
     let mut harness = harness();
+    harness.get_by_label("Device").scroll_to_me();
+    harness.run_steps(20);
     harness.get_by_label("Device").click();
     harness.run_steps(20);
     harness.get_by_label("Other").scroll_to_me();
