@@ -18,8 +18,8 @@ use crate::film::Output;
 /// How often something that is waited for is looked at, where no event tells.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// Time until a click into the picture has its pixel's tree.
-const CLICK: Duration = Duration::from_secs(5);
+/// Time until a new size of the window, or a click into the picture, has shown its effect.
+const PATIENCE: Duration = Duration::from_secs(5);
 
 /// What became of an act.
 enum Effect {
@@ -184,10 +184,6 @@ impl Shown {
                 (traced == *is_cpu, format!("{:?} traces", self.session.backend))
             }
             Expectation::Tree(text) => {
-                let waited = self.player.as_ref().map_or(CLICK, |player| player.waited());
-                if self.session.inspection.is_none() && waited < CLICK {
-                    return Ok(Effect::Awaited);
-                }
                 let rays = self.session.inspection.iter().flat_map(|inspection| &inspection.tree.nodes);
                 let lines: Vec<String> = rays.map(line).collect();
                 let is_there = lines.iter().any(|line| line.contains(text));
@@ -203,6 +199,13 @@ impl Shown {
             }
             Expectation::Idle { .. } => (true, String::new()),
         };
-        if is_met { Ok(Effect::Done) } else { Err(self.fault(found)) }
+        // A window system takes its time, and may tell of an old size once more.
+        let comes_late = matches!(expectation, Expectation::Size(_) | Expectation::Tree(_));
+        let waited = self.player.as_ref().map_or(PATIENCE, |player| player.waited());
+        match is_met {
+            true => Ok(Effect::Done),
+            false if comes_late && waited < PATIENCE => Ok(Effect::Awaited),
+            false => Err(self.fault(found)),
+        }
     }
 }
