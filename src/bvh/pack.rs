@@ -118,6 +118,7 @@ fn plane(origin: f32, byte: u32, scale: f32) -> (f32, f64) {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::super::aabb::Aabb;
     use super::super::testing::{soup, triangle};

@@ -64,7 +64,7 @@ struct Cli {
 enum Command {
     Render(Box<render::RenderArgs>),
     Check(check::CheckArgs),
-    Bench(bench::BenchArgs),
+    Bench(Box<bench::BenchArgs>),
     Devices(devices::DevicesArgs),
     Diff(diff::DiffArgs),
     Study(study::StudyArgs),
