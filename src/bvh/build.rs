@@ -59,8 +59,13 @@ pub fn build(triangles: &[Triangle], preset: Preset) -> Result<Bvh, BvhError> {
 
 /// The preset's tree, unless it is too deep.
 fn choose(triangles: &[Triangle], preset: Preset) -> Tree {
-    let best = (preset == Preset::Best).then(|| reinsertion::build(triangles));
-    best.filter(|tree| tree.depth() <= MAX_BVH_DEPTH).unwrap_or_else(|| binned::build(triangles))
+    let binned = binned::build(triangles);
+    match preset {
+        Preset::Fast => binned,
+        Preset::Best => Some(reinsertion::improve(triangles, &binned))
+            .filter(|tree| tree.depth() <= MAX_BVH_DEPTH)
+            .unwrap_or(binned),
+    }
 }
 
 #[cfg(test)]

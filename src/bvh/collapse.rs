@@ -2,6 +2,7 @@
 //! surface area heuristic, found from the leaves up (Ylitie, Karras, Laine 2017, "Efficient incoherent ray traversal on
 //! GPUs through compressed wide BVHs", section 3.1).
 
+use super::aabb::Aabb;
 use crate::layout::Node;
 
 /// Children of a wide node, at most.
@@ -39,6 +40,12 @@ struct Subtree {
     node: Option<u32>,
     first: u32,
     count: u32,
+}
+
+impl Subtree {
+    fn aabb(&self) -> Aabb {
+        Aabb { lo: self.lo, hi: self.hi }
+    }
 }
 
 /// The cheapest ways to spend lanes on a binary node.
@@ -134,10 +141,7 @@ impl<'a> Collapse<'a> {
         };
         let first = a.first.min(b.first);
         let count = (a.first + a.count).max(b.first + b.count) - first;
-        let area = half_area(
-            std::array::from_fn(|axis| a.lo[axis].min(b.lo[axis])),
-            std::array::from_fn(|axis| a.hi[axis].max(b.hi[axis])),
-        );
+        let area = a.aabb().union(&b.aabb()).half_area() as f32;
         let (own, own_split) = split(WIDTH);
         let as_leaf = area * (self.leaves.cost)(count);
         let is_leaf = count <= self.leaves.most && as_leaf <= area + own;
@@ -157,13 +161,7 @@ impl<'a> Collapse<'a> {
     fn costs(&self, part: &Subtree) -> [f32; WIDTH - 1] {
         match part.node {
             Some(node) => self.choices[node as usize].costs,
-            None => [half_area(part.lo, part.hi) * (self.leaves.cost)(part.count); WIDTH - 1],
+            None => [part.aabb().half_area() as f32 * (self.leaves.cost)(part.count); WIDTH - 1],
         }
     }
-}
-
-/// Half the surface area: finite within the ±2^60 of a scene.
-fn half_area(lo: [f32; 3], hi: [f32; 3]) -> f32 {
-    let [x, y, z]: [f64; 3] = std::array::from_fn(|axis| f64::from(hi[axis]) - f64::from(lo[axis]));
-    (x * y + y * z + z * x) as f32
 }

@@ -1,5 +1,6 @@
 //! The nodes that adapters traverse: eight boxes in bytes.
 
+use super::aabb::Aabb;
 use super::collapse::{Collapse, LeafRule, Part, WIDTH};
 use super::slots::by_octant;
 use crate::layout::{Node, Triangle, WideNode};
@@ -43,8 +44,8 @@ pub fn pack(nodes: &[Node], triangles: &[Triangle]) -> PackedBvh {
 /// The node of these children; appends their triangles, and the binary nodes of the inner ones.
 fn node(parts: &[Part], first_child: u32, order: &mut Vec<u32>, inner: &mut Vec<u32>) -> WideNode {
     let first_triangle = order.len() as u32;
-    let lo: [f32; 3] = least(parts, |part| part.lo);
-    let hi: [f32; 3] = least(parts, |part| part.hi.map(|x| -x)).map(|x| -x);
+    let Aabb { lo, hi } =
+        parts.iter().fold(Aabb::EMPTY, |aabb, part| aabb.union(&Aabb { lo: part.lo, hi: part.hi }));
     let slots = by_octant(parts);
     let mut node = WideNode { origin: lo, first_child, first_triangle, ..WideNode::zeroed() };
     for (slot, part) in slots.iter().enumerate() {
@@ -65,10 +66,6 @@ fn node(parts: &[Part], first_child: u32, order: &mut Vec<u32>, inner: &mut Vec<
         node.planes[axis] = planes;
     }
     node
-}
-
-fn least(parts: &[Part], corner: impl Fn(&Part) -> [f32; 3]) -> [f32; 3] {
-    parts.iter().map(corner).fold([f32::INFINITY; 3], |a, b| std::array::from_fn(|axis| a[axis].min(b[axis])))
 }
 
 /// The least exponent by which every box of an axis lies within bytes, and the words of the planes.
@@ -120,7 +117,6 @@ fn plane(origin: f32, byte: u32, scale: f32) -> (f32, f64) {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
-    use super::super::aabb::Aabb;
     use super::super::testing::{soup, triangle};
     use super::super::{Preset, build};
     use super::*;

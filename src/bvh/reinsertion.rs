@@ -1,4 +1,4 @@
-//! The builder of best quality: the binned tree, whose subtrees are then put where they cost least, by the crate `obvhs`
+//! What makes a binned tree the best one: its subtrees are put where they cost least, by the crate `obvhs`
 //! (Meister and Bittner 2018, "Parallel reinsertion for bounding volume hierarchy optimization").
 //!
 //! PLOC (Meister and Bittner 2018, "Parallel locally-ordered clustering …") with the same optimization, `obvhs`' own
@@ -11,20 +11,17 @@ use obvhs::bvh2::node::Bvh2Node;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 
 use super::aabb::Aabb;
-use super::binned;
 use super::tree::{Branch, Tree};
 use crate::layout::Triangle;
 
 /// Part of the nodes that the first pass moves; 5 and 15 % gain no more than another per cent.
 const BATCH: f32 = 0.02;
 
-/// Build a tree of any depth with at most [`MAX_LEAF`](super::MAX_LEAF) triangles a leaf. `triangles` is not empty, its
-/// corners are finite.
-pub(super) fn build(triangles: &[Triangle]) -> Tree {
-    let tree = binned::build(triangles);
+/// A cheaper tree of the same leaves, of any depth. In `tree` each node comes before its children; corners are finite.
+pub(super) fn improve(triangles: &[Triangle], tree: &Tree) -> Tree {
     let mut bvh = Bvh2 {
-        nodes: nodes(triangles, &tree),
-        primitive_indices: tree.order,
+        nodes: nodes(triangles, tree),
+        primitive_indices: tree.order.clone(),
         children_are_ordered_after_parents: true,
         ..Bvh2::default()
     };

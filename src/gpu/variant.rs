@@ -31,7 +31,7 @@ pub struct Variant {
     /// Pending rays of a tree beside the one in work: one for each branching level. Constant `STACK_SIZE`; feature
     /// `branches` where it is not 0.
     pub stack_size: u32,
-    /// Pending nodes of a traversal. Constant `BVH_STACK`.
+    /// Nodes of a traversal whose children are not all visited. Constant `BVH_STACK`.
     pub bvh_stack: u32,
     /// Feature `tree`: the film holds the ray tree of the one pixel that is traced.
     pub tree: bool,

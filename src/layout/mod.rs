@@ -1,7 +1,7 @@
 //! The contract both devices obey: `#[repr(C)]` records, shared constants, settings, effects.
 //!
-//! Every record here has a WGSL struct of the same name in `shaders/records.wgsl`; a test compares sizes
-//! and offsets. Every constant in [`constants`] is injected into the shaders; a test forbids repeating one.
+//! Every record here but [`Node`], which adapters get as [`WideNode`], has a WGSL struct of the same name in
+//! `shaders/records.wgsl`; a test compares sizes and offsets. Every constant in [`constants`] is injected into the shaders; a test forbids repeating one.
 
 mod adaptive;
 pub mod constants;
