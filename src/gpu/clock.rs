@@ -91,7 +91,7 @@ impl Clock {
         let mut encoder = context.encoder();
         encoder.resolve_query_set(&self.queries, 0..2 * noted.passes, &self.resolved, 0);
         encoder.copy_buffer_to_buffer(&self.resolved, 0, &self.staging, 0, size);
-        context.queue.submit([encoder.finish()]);
+        context.submit(Some(encoder.finish()));
         noted.ticks += context.map(&self.staging, size, ticks_between)?;
         noted.passes = 0;
         Ok(())

@@ -1,7 +1,7 @@
 //! The connection to one adapter, with every complaint of the driver turned into an error.
 
 use std::ops::Range;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError, RwLock};
 use std::time::Duration;
 
 use super::adapters::{AdapterReport, choose, instance};
@@ -25,6 +25,8 @@ pub(super) struct Context {
     pub(super) queue: wgpu::Queue,
     pub(super) pipeline_cache: Arc<PipelineCache>,
     faults: Arc<Mutex<Option<Fault>>>,
+    /// Read by whoever submits, written while a surface is configured.
+    gate: Arc<RwLock<()>>,
 }
 
 /// What a driver reported behind the program's back.
@@ -69,6 +71,7 @@ impl Context {
             queue,
             pipeline_cache: Arc::new(cache),
             faults,
+            gate: Arc::default(),
         })
     }
 
@@ -82,6 +85,19 @@ impl Context {
             Some(Fault::Lost(reason)) => Err(GpuError::DeviceLost { reason }),
             Some(Fault::Error(reason)) => Err(self.adapter.refused("a command", reason)),
         }
+    }
+
+    /// Have the device do these commands after all that was submitted before.
+    pub(super) fn submit(&self, commands: Option<wgpu::CommandBuffer>) -> wgpu::SubmissionIndex {
+        let _open = self.gate.read().unwrap_or_else(PoisonError::into_inner);
+        self.queue.submit(commands)
+    }
+
+    /// Make a surface's pictures anew. wgpu waits until the device has nothing to do and fails where another thread submits
+    /// something meanwhile (`GpuWaitTimeout`), so nobody may.
+    pub(super) fn configure(&self, surface: &wgpu::Surface<'_>, config: &wgpu::SurfaceConfiguration) {
+        let _closed = self.gate.write().unwrap_or_else(PoisonError::into_inner);
+        surface.configure(&self.device, config);
     }
 
     /// Wait until all that was submitted is done.
@@ -144,7 +160,7 @@ impl Context {
     pub(super) fn write(&self, buffer: &wgpu::Buffer, bytes: &[u8]) -> Result<(), GpuError> {
         for (part, offset) in bytes.chunks(TRANSFER as usize).zip((0..).step_by(TRANSFER as usize)) {
             self.queue.write_buffer(buffer, offset, part);
-            self.queue.submit([]);
+            self.submit(None);
             self.wait()?;
         }
         Ok(())
@@ -165,7 +181,7 @@ impl Context {
             let size = part.min(range.end - start);
             let mut encoder = self.encoder();
             encoder.copy_buffer_to_buffer(buffer, start, &staging, 0, size);
-            self.queue.submit([encoder.finish()]);
+            self.submit(Some(encoder.finish()));
             self.map(&staging, size, &mut take)?;
             start += size;
         }

@@ -104,7 +104,7 @@ impl FilmBuffer {
     pub(super) fn clear(&self, context: &Context, pixels: u64) {
         let mut encoder = context.encoder();
         encoder.clear_buffer(&self.buffer, self.texels_at, Some(pixels * self.layout.size()));
-        context.queue.submit([encoder.finish()]);
+        context.submit(Some(encoder.finish()));
     }
 
     /// Tell the next submission what to trace, and where its counters begin.

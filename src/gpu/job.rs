@@ -123,7 +123,7 @@ impl Job<'_> {
             pass.dispatch_workgroups(tile.block_count, 1, 1);
         }
         self.film.take_head(&mut encoder);
-        self.context.queue.submit([encoder.finish()]);
+        self.context.submit(Some(encoder.finish()));
         let head = self.film.head(self.context)?;
         let expected = tile.block_count * BLOCK * BLOCK;
         if head.done != expected {

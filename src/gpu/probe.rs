@@ -108,7 +108,7 @@ impl Prober {
                 pass.set_bind_group(0, &group, &[]);
                 pass.dispatch_workgroups((end - first).div_ceil(PROBE_GROUP), 1, 1);
             }
-            context.queue.submit([encoder.finish()]);
+            context.submit(Some(encoder.finish()));
             context.wait()?;
         }
         let mut at = 0;

@@ -47,10 +47,20 @@ impl SharedDevice {
         &self.context.device
     }
 
-    /// Its only queue: what is submitted first is done first, whoever submits it.
+    /// Its only queue, to write buffers; [`submit`](Self::submit) is for commands.
     #[must_use]
     pub fn queue(&self) -> &wgpu::Queue {
         &self.context.queue
+    }
+
+    /// Have the device do these commands after all that was submitted before, by whomever.
+    pub fn submit(&self, commands: wgpu::CommandBuffer) -> wgpu::SubmissionIndex {
+        self.context.submit(Some(commands))
+    }
+
+    /// Make a surface's pictures anew, while nobody submits.
+    pub fn configure(&self, surface: &wgpu::Surface<'_>, config: &wgpu::SurfaceConfiguration) {
+        self.context.configure(surface, config);
     }
 
     /// Wait until a submission is done.

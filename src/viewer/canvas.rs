@@ -82,7 +82,7 @@ impl Canvas {
         if width > 0 && height > 0 {
             (self.config.width, self.config.height) = (width.min(most), height.min(most));
             if let Some(surface) = &self.surface {
-                surface.configure(self.device.device(), &self.config);
+                self.device.configure(surface, &self.config);
             }
         }
     }
@@ -167,7 +167,7 @@ impl Canvas {
             },
             wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
         );
-        self.device.queue().submit([encoder.finish()]);
+        self.device.submit(encoder.finish());
         let bytes = self.device.read(&buffer, 4)?;
         let is_bgra = self.config.format == wgpu::TextureFormat::Bgra8Unorm;
         let pixel = |p: &[u8]| if is_bgra { [p[2], p[1], p[0]] } else { [p[0], p[1], p[2]] };
@@ -207,7 +207,7 @@ impl Canvas {
             pass.set_scissor_rect(0, 0, size[0], size[1]);
             self.gui.render(&mut pass, &painted.triangles, &screen);
         }
-        self.drawn = Some(queue.submit([encoder.finish()]));
+        self.drawn = Some(self.device.submit(encoder.finish()));
     }
 
     fn take_textures(&mut self, textures: &egui::TexturesDelta) {

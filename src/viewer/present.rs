@@ -129,7 +129,7 @@ impl Presenter {
             let [width, height] = [coarse.film.width, coarse.film.height];
             pass.dispatch_workgroups(width.div_ceil(BLOCK), height.div_ceil(BLOCK), 1);
         }
-        queue.submit([encoder.finish()]);
+        self.device.submit(encoder.finish());
     }
 
     /// What was measured last: 32 bytes.
@@ -214,7 +214,7 @@ impl Presenter {
             pass.draw(0..3, 0..1);
         }
         // Before what reads it: the queue keeps the order.
-        self.device.queue().submit([encoder.finish()]);
+        self.device.submit(encoder.finish());
         view
     }
 

@@ -24,13 +24,17 @@ pub(super) const PANEL: f32 = 320.0;
 pub(super) fn fonts() -> egui::FontDefinitions {
     let mut fonts = egui::FontDefinitions::default();
     let even = fonts.families.get(&egui::FontFamily::Monospace).cloned().unwrap_or_default();
-    fonts.families.entry(egui::FontFamily::Proportional).or_default().extend(even);
+    let proportional = fonts.families.entry(egui::FontFamily::Proportional).or_default();
+    let lacking: Vec<_> = even.into_iter().filter(|name| !proportional.contains(name)).collect();
+    proportional.extend(lacking);
     fonts
 }
 
-/// Fonts and spacing of both themes.
+/// Fonts and spacing of both themes, and what counts as a click.
 pub(super) fn style(context: &egui::Context) {
     context.set_fonts(fonts());
+    // Nothing here is done by a long press, and on a slow device a short one lasts over several frames.
+    context.options_mut(|options| options.input_options.max_click_duration = f64::INFINITY);
     context.all_styles_mut(|style| {
         style.spacing.item_spacing = egui::vec2(8.0, 6.0);
         style.spacing.slider_width = 130.0;
