@@ -92,7 +92,12 @@ fn trace_pixel(pixel: vec2u, slot: u32) -> bool {
             break;
         }
         var before: Texel;
-        @if(antialiasing) before = film.texels[slot].texel;
+        // A film is not cleared: the first sample of a pixel takes the place of what is there.
+        @if(antialiasing) {
+            if i > 0u {
+                before = film.texels[slot].texel;
+            }
+        }
         film.texels[slot].texel = add(before, sample, i);
         @if(adaptive) {
             film.texels[slot].statistics =

@@ -5,16 +5,18 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use super::film::{FilmBuffer, PixelLayout, Pixels};
-use super::pace::Pace;
+use super::job::Job;
+use super::pace::{Pace, SUBMISSION};
 use super::{GpuError, GpuRenderer, SharedDevice, Variant};
 use crate::film::{Frame, Progress, RayCounts, SampleCounts, TraceTimes};
 use crate::layout::constants::BLOCK;
 use crate::layout::{Float, Settings, Tile, View};
 
-/// A picture in device memory. While a handle of it lives, no other picture is traced into its memory.
+/// A picture in device memory. While a handle of it lives, no other picture is traced into its memory, unless it is a
+/// [`Rolling`](super::Rolling) one's.
 #[derive(Clone)]
 pub struct Film {
-    buffer: Arc<FilmBuffer>,
+    pub(super) buffer: Arc<FilmBuffer>,
     /// Pixels in a row.
     pub width: u32,
     /// Rows.
@@ -182,29 +184,16 @@ impl GpuRenderer {
             return self.expose_adaptive(view, &variant, threshold, watch);
         }
         let job = self.prepare(view, &variant)?;
-        if job.band_height < job.blocks.height {
-            let [_, _, width, height] = view.crop;
-            job.context.check_size("the picture", job.film.size_for(u64::from(width) * u64::from(height)))?;
-        }
+        whole(&job)?;
         let blocks = job.blocks.count();
-        let kind = job.context.adapter.kind;
-        let mut pace = match last {
-            Some((_, pace)) => pace,
-            None => Pace::new(blocks, 1, variant.most_blocks(), kind),
-        };
+        let mut pace =
+            last.map_or_else(|| first_pace(&job, &variant), |(_, pace)| pace).aiming_at(SUBMISSION);
         let mut exposure = blank(&job.film, view, &variant);
         exposure.times.compile = start.elapsed();
         let traced = Instant::now();
-        job.film.clear(job.context, u64::from(exposure.film.width) * u64::from(exposure.film.height));
         'passes: for first_sample in 0..view.samples {
             pace = pace.again(blocks, 1);
-            while let Some(tile) = pace.next(blocks) {
-                let longest = job.trace_tile(Tile { first_sample, ..tile }, &mut exposure.rays)?;
-                pace.took(longest);
-                exposure.blocks = pace.finished_blocks();
-                if exposure.blocks == blocks {
-                    (exposure.passes, exposure.blocks) = (first_sample + 1, 0);
-                }
+            while trace_next(&job, &mut pace, blocks, first_sample, &mut exposure)?.is_some() {
                 exposure.times.trace = traced.elapsed();
                 if watch(&exposure) == ControlFlow::Break(()) {
                     break 'passes;
@@ -247,8 +236,43 @@ impl GpuRenderer {
     }
 }
 
+/// That a picture fits one film.
+pub(super) fn whole(job: &Job<'_>) -> Result<(), GpuError> {
+    if job.band_height == job.blocks.height {
+        return Ok(());
+    }
+    let pixels = u64::from(job.blocks.width) * u64::from(job.blocks.height);
+    job.context.check_size("the picture", job.film.size_for(pixels))
+}
+
+/// Before anything is known of the adapter.
+pub(super) fn first_pace(job: &Job<'_>, variant: &Variant) -> Pace {
+    Pace::new(job.blocks.count(), 1, variant.most_blocks(), job.context.adapter.kind)
+}
+
+/// Trace the next tile before block `end`, and note on an unfinished picture what it has by now; none where no tile is
+/// left.
+pub(super) fn trace_next(
+    job: &Job<'_>,
+    pace: &mut Pace,
+    end: u32,
+    first_sample: u32,
+    exposure: &mut Exposure,
+) -> Result<Option<Tile>, GpuError> {
+    let Some(tile) = pace.next(end) else { return Ok(None) };
+    let longest = job.trace_tile(Tile { first_sample, ..tile }, &mut exposure.rays)?;
+    pace.took(longest);
+    if !exposure.is_complete() {
+        exposure.blocks = pace.finished_blocks();
+        if exposure.blocks == job.blocks.count() {
+            (exposure.passes, exposure.blocks) = (first_sample + 1, 0);
+        }
+    }
+    Ok(Some(tile))
+}
+
 /// A film before the first ray.
-fn blank(film: &Arc<FilmBuffer>, view: &View, variant: &Variant) -> Exposure {
+pub(super) fn blank(film: &Arc<FilmBuffer>, view: &View, variant: &Variant) -> Exposure {
     let [_, _, width, height] = view.crop;
     Exposure {
         film: Film { buffer: Arc::clone(film), width, height },

@@ -45,7 +45,6 @@ impl Job<'_> {
             let end_row = self.blocks.height.min(first_row + self.band_height);
             let start = Instant::now();
             let pixels = u64::from(self.blocks.width) * u64::from(end_row - first_row);
-            self.film.clear(self.context, pixels);
             let flow = self.trace_band(first_row, end_row, pace, progress, &mut frame.rays)?;
             let traced = Instant::now();
             self.film.read(self.context, pixels, &mut read)?;

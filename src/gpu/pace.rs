@@ -8,15 +8,15 @@ use std::time::Duration;
 use super::AdapterKind;
 use crate::layout::Tile;
 
-/// What a submission is meant to take; work ahead can be twice as hard as that behind.
-const TARGET: Duration = Duration::from_millis(25);
+/// What a submission is meant to take where nobody waits for it; work ahead can be twice as hard as that behind.
+pub(super) const SUBMISSION: Duration = Duration::from_millis(25);
 /// Greatest growth from one submission to the next: rays may meet a harder part of the picture.
 const GROWTH: f64 = 2.0;
 /// Blocks that a graphics card traces side by side, at the least.
 const CARD_WIDTH: u32 = 32;
 
 /// Cuts a picture into tiles, one submission after the other.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Pace {
     blocks: u32,
     samples: u32,
@@ -26,6 +26,8 @@ pub(super) struct Pace {
     width: u32,
     /// The tile that was submitted last, or one before the first.
     last: Tile,
+    /// What a submission is meant to take.
+    target: Duration,
     /// Units that fit one submission.
     units: f64,
 }
@@ -43,13 +45,25 @@ impl Pace {
 
     fn with_width(blocks: u32, samples: u32, most_blocks: u32, width: u32) -> Self {
         let last = Tile { sample_count: samples, ..Tile::default() };
-        Self { blocks, samples, most_blocks, width: width.min(most_blocks), last, units: f64::from(width) }
+        let (target, units) = (SUBMISSION, f64::from(width));
+        Self { blocks, samples, most_blocks, width: width.min(most_blocks), last, target, units }
+    }
+
+    /// The same with submissions of that length.
+    pub(super) fn aiming_at(self, target: Duration) -> Self {
+        let units = self.units * target.as_secs_f64() / self.target.as_secs_f64();
+        Self { target, units: units.max(f64::from(self.width)), ..self }
     }
 
     /// Another part of the same picture: so many blocks, at what the adapter does by now.
     pub(super) fn again(&self, blocks: u32, samples: u32) -> Self {
-        let last = Tile { sample_count: samples, ..Tile::default() };
-        Self { blocks, samples, last, ..*self }
+        Self { blocks, samples, ..*self }.from(0)
+    }
+
+    /// The same from that block on.
+    pub(super) fn from(self, first_block: u32) -> Self {
+        let last = Tile { first_block, sample_count: self.samples, ..Tile::default() };
+        Self { last, ..self }
     }
 
     /// The next tile to submit, of the blocks before `end`; none when those are done.
@@ -73,7 +87,7 @@ impl Pace {
     /// Learn from what the last tile took.
     pub(super) fn took(&mut self, elapsed: Duration) {
         let units = f64::from(self.last.block_count) * f64::from(self.last.sample_count);
-        let fitting = units * TARGET.as_secs_f64() / elapsed.as_secs_f64().max(1e-6);
+        let fitting = units * self.target.as_secs_f64() / elapsed.as_secs_f64().max(1e-6);
         self.units = fitting.min(units * GROWTH).max(f64::from(self.width));
     }
 

@@ -227,13 +227,23 @@ impl GpuRenderer {
 
     /// Compile the variant, make room for the picture and take it in view.
     pub(super) fn prepare(&mut self, view: &View, variant: &Variant) -> Result<Job<'_>, GpuError> {
+        let texels_at = self.pipelines.compile(variant)?.texels_at;
+        let pixels = u64::from(view.crop[2]) * u64::from(self.film_rows(view, variant)?);
+        let film = self.film(texels_at, pixels, PixelLayout::of(variant))?;
+        self.prepare_on(film, view, variant)
+    }
+
+    /// The same on a film that is made for such pictures.
+    pub(super) fn prepare_on(
+        &mut self,
+        film: Arc<FilmBuffer>,
+        view: &View,
+        variant: &Variant,
+    ) -> Result<Job<'_>, GpuError> {
         let compiled = self.pipelines.compile(variant)?;
         let [_, _, width, height] = view.crop;
         let blocks = Blocks::new(width, height);
-        let layout = PixelLayout::of(variant);
         let band_height = self.film_rows(view, variant)?;
-        let pixels = u64::from(width) * u64::from(band_height);
-        let film = self.film(compiled.texels_at, pixels, layout)?;
         let is_cold = self.warm.insert(*variant);
         self.scene.set_view(&self.context, view);
         let group = self.scene.bind(&self.context, &film.buffer);

@@ -7,7 +7,7 @@ use super::TraceError;
 use super::scale::scaled;
 use crate::cpu::CpuRenderer;
 use crate::film::{Progress, Renderer};
-use crate::gpu::{Exposure, Film, GpuError, GpuRenderer, SharedDevice, Source};
+use crate::gpu::{Exposure, Film, GpuError, GpuRenderer, Rolling, SharedDevice, Source};
 use crate::layout::constants::MAX_DEPTH;
 use crate::layout::{EffectChoice, FlatScene, Float, Settings, TreeNode, View};
 
@@ -35,6 +35,19 @@ pub(super) trait Engine {
         settings: &Settings,
         listen: Listen<'_>,
     ) -> Result<Option<Exposure>, TraceError>;
+
+    /// Trace a picture in motion, of one sample a pixel: a slow device over the last one, from where that was broken off.
+    /// What it heard and was not complete is in work; the part of the picture that shows this view, and all of it if it is
+    /// the whole.
+    fn follow(
+        &mut self,
+        view: &View,
+        settings: &Settings,
+        listen: Listen<'_>,
+    ) -> Result<(f64, Option<Exposure>), TraceError>;
+
+    /// The next picture in motion begins anew.
+    fn rest(&mut self);
 
     /// Whether pictures are traced by these shader files, or by none.
     fn has_shaders(&self, shaders: &'static [Source<'static>]) -> bool;
@@ -68,13 +81,15 @@ fn within(size: [u32; 2], most: u64) -> [u32; 2] {
 /// An adapter. Until the pipeline for a scene's effects is compiled, the general one serves if that is.
 pub(super) struct GpuEngine {
     renderer: GpuRenderer,
+    /// The picture in motion.
+    rolling: Option<Rolling>,
     /// Pipelines in work, with what they are for.
     compiling: Vec<(Settings, JoinHandle<Result<(), GpuError>>)>,
 }
 
 impl GpuEngine {
     pub(super) fn new(renderer: GpuRenderer) -> Self {
-        Self { renderer, compiling: Vec::new() }
+        Self { renderer, rolling: None, compiling: Vec::new() }
     }
 
     /// The renderer with all that is compiled.
@@ -93,6 +108,14 @@ impl GpuEngine {
     fn usable(&self, settings: &Settings) -> Option<Settings> {
         let is_compiled = |settings: &Settings| self.renderer.is_compiled(settings);
         Some(*settings).filter(is_compiled).or_else(|| Self::general(settings).filter(is_compiled))
+    }
+
+    /// Those of the settings whose pipeline is there; another is compiled meanwhile.
+    fn serve(&mut self, settings: &Settings) -> Settings {
+        if !self.is_special(settings) {
+            self.compile(*settings);
+        }
+        self.usable(settings).unwrap_or(*settings)
     }
 
     fn compile(&mut self, settings: Settings) {
@@ -148,12 +171,28 @@ impl Engine for GpuEngine {
         settings: &Settings,
         listen: Listen<'_>,
     ) -> Result<Option<Exposure>, TraceError> {
-        let usable = self.usable(settings).unwrap_or(*settings);
-        if !self.is_special(settings) {
-            self.compile(*settings);
-        }
+        let usable = self.serve(settings);
         let exposure = self.renderer.expose(view, &usable, &|exposure| listen(Some(exposure)))?;
         Ok(Some(exposure).filter(Exposure::is_complete))
+    }
+
+    fn follow(
+        &mut self,
+        view: &View,
+        settings: &Settings,
+        listen: Listen<'_>,
+    ) -> Result<(f64, Option<Exposure>), TraceError> {
+        let usable = self.serve(settings);
+        let last = self.rolling.take();
+        let rolling = self.renderer.roll(last, view, &usable, &|exposure| listen(Some(exposure)))?;
+        let whole = (rolling.share == 1.0).then(|| rolling.exposure.clone());
+        let share = rolling.share;
+        self.rolling = Some(rolling);
+        Ok((share, whole))
+    }
+
+    fn rest(&mut self) {
+        self.rolling = None;
     }
 
     fn has_shaders(&self, shaders: &'static [Source<'static>]) -> bool {
@@ -249,6 +288,19 @@ impl Engine for CpuEngine<'_> {
         }
         trace(view.samples, settings.adaptive)
     }
+
+    fn follow(
+        &mut self,
+        view: &View,
+        settings: &Settings,
+        _listen: Listen<'_>,
+    ) -> Result<(f64, Option<Exposure>), TraceError> {
+        // What is broken off leaves nothing.
+        let whole = self.expose(view, settings, &|_| ControlFlow::Continue(()))?;
+        Ok((1.0, whole))
+    }
+
+    fn rest(&mut self) {}
 
     fn has_shaders(&self, _shaders: &'static [Source<'static>]) -> bool {
         true

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use super::engine::{CpuEngine, Engine, GpuEngine};
 use super::inbox::{Inbox, Request, Task};
-use super::scale::Scale;
+use super::scale::{Scale, TARGET};
 use super::stage::Stage;
 use super::tracer::{Kind, Report, Resolution, Traced, Wanted};
 use super::turntable::Turntable;
@@ -21,7 +21,7 @@ const REST: Duration = Duration::from_millis(80);
 /// How often a picture in work is shown.
 const SHOW: Duration = Duration::from_millis(120);
 /// How soon a moving picture is shown in part, where the device cannot trace the smallest one in its time.
-const SHOW_IN_MOTION: Duration = Duration::from_millis(20);
+const SHOW_IN_MOTION: Duration = Duration::from_millis(12);
 
 /// Settings of pictures in motion: those at rest, so that one pipeline serves both, but for what needs many samples.
 fn in_motion(settings: &Settings) -> Settings {
@@ -200,12 +200,13 @@ impl Worker {
         let show = self.shows(request, SHOW_IN_MOTION);
         let listen = |exposure: Option<&Exposure>| {
             show(exposure);
-            ControlFlow::Continue(())
+            // What comes within its time is not torn.
+            if start.elapsed() < TARGET { ControlFlow::Continue(()) } else { self.goes_on(request.serial) }
         };
-        let exposure = engine.expose(&view, &settings, &listen)?;
+        let (share, exposure) = engine.follow(&view, &settings, &listen)?;
         drop(show);
-        if wanted.resolution == Resolution::Auto {
-            self.scale.took(wanted.size, start.elapsed());
+        if wanted.resolution == Resolution::Auto && share > 0.0 {
+            self.scale.took(wanted.size, start.elapsed().div_f64(share));
         }
         if let Some(exposure) = exposure {
             self.tell(exposure, request, Kind::Motion);
@@ -216,6 +217,7 @@ impl Worker {
     /// The whole picture, shown as it grows, until something else is asked for.
     fn trace_at_rest(&self, engine: &mut dyn Engine, request: &Request) -> Result<(), TraceError> {
         let wanted = &request.wanted;
+        engine.rest();
         if !engine.is_ready(&wanted.settings) {
             return Ok(());
         }
@@ -224,7 +226,7 @@ impl Worker {
         let listen = |exposure: Option<&Exposure>| {
             let flow = self.goes_on(request.serial);
             if flow == ControlFlow::Continue(()) {
-                show(exposure);
+                show(exposure.filter(|exposure| !exposure.is_complete()));
             }
             flow
         };
@@ -242,17 +244,19 @@ impl Worker {
         if self.inbox.serial() == serial { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     }
 
-    /// Tells what there is of a picture: when the first time is over, then again and again.
+    /// Tells what there is of a picture: when the first time is over, then again and again. One in motion is shown as a
+    /// whole once it is complete, though its film is traced over.
     fn shows<'a>(&'a self, request: &'a Request, first: Duration) -> impl Fn(Option<&Exposure>) + Sync + 'a {
         let next = Mutex::new(Instant::now() + first);
         move |exposure| {
             let mut next = next.lock().unwrap_or_else(PoisonError::into_inner);
-            let is_in_work = |one: &&Exposure| one.blocks + one.passes > 0 && !one.is_complete();
-            if let Some(exposure) = exposure.filter(is_in_work)
+            let has_begun = |one: &&Exposure| one.blocks + one.passes > 0;
+            if let Some(exposure) = exposure.filter(has_begun)
                 && Instant::now() >= *next
             {
                 *next = Instant::now() + SHOW;
-                self.tell(exposure.clone(), request, Kind::Growing);
+                let kind = if exposure.is_complete() { Kind::Motion } else { Kind::Growing };
+                self.tell(exposure.clone(), request, kind);
             }
         }
     }
