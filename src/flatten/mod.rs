@@ -93,14 +93,14 @@ pub fn flatten(scene: &Scene) -> Result<Flattened, SceneError> {
     let bvh = Statistics::of(&tree);
     let mut scene = FlatScene {
         bounds: bounds(&tree.nodes[0]),
-        nodes: tree.nodes,
-        triangles,
-        attributes: faces.attributes,
-        corners: faces.corners,
+        nodes: tree.nodes.into(),
+        triangles: triangles.into(),
+        attributes: faces.attributes.into(),
+        corners: faces.corners.into(),
         materials,
         material_names,
         lights,
-        texels: texels.into_words(),
+        texels: texels.into_words().into(),
         transmissive_bodies: bodies.transmissive,
         bodies: bodies.bodies,
         bvh_depth: tree.depth,
@@ -219,7 +219,7 @@ mod tests {
     fn the_tree_is_sound_and_the_triangles_stand_in_its_order() {
         let flat = flattened(vec![model("a", cube(1.0), ICE), model("b", cube(3.0), STONE)]).unwrap();
         let tree = bvh::Bvh {
-            nodes: flat.scene.nodes.clone(),
+            nodes: flat.scene.nodes.to_vec(),
             order: (0..24).collect(),
             depth: flat.scene.bvh_depth,
         };

@@ -141,7 +141,7 @@ mod tests {
         let flat = flattened(vec![Model { normals, ..model("it", mesh, STONE) }]).unwrap().scene;
         let smooth = flat.attributes.iter().filter(|face| face.corners != Attribute::NONE).count();
         assert_eq!(flat.corners.len(), smooth * 3);
-        flat.corners
+        flat.corners.to_vec()
     }
 
     /// A cube whose every face has the given normal, by face.
@@ -186,7 +186,7 @@ mod tests {
         let quarter = glam::DAffine3::from_rotation_y(std::f64::consts::FRAC_PI_2);
         let turned = Model { world_from_object: quarter, normals: Normals::File, ..model("it", mesh, STONE) };
         let flat = flattened(vec![turned]).unwrap().scene;
-        for face in &flat.attributes {
+        for face in &*flat.attributes {
             let corner = flat.corners[face.corners as usize].normal;
             assert!(corner.iter().zip(face.normal).map(|(a, b)| a * b).sum::<f32>() > 0.0);
             assert!(corner[0].abs() > 0.9, "{corner:?}");

@@ -1,6 +1,7 @@
 //! A scene in device memory.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use bytemuck::{NoUninit, Zeroable, bytes_of, cast_slice};
 
@@ -8,10 +9,16 @@ use super::GpuError;
 use super::context::Context;
 use super::pipeline::{FRAME, SCENE, WRITTEN, bind_group_layout};
 use crate::bvh;
-use crate::layout::{FlatScene, Triangle, View};
+use crate::layout::{FlatScene, Node, Triangle, View};
 
 /// Storage buffers that the host fills.
 const STORED: wgpu::BufferUsages = wgpu::BufferUsages::STORAGE.union(wgpu::BufferUsages::COPY_DST);
+
+/// What is uploaded: its name, and the records as bytes.
+type Array<'a> = (&'static str, Cow<'a, [u8]>);
+
+/// Place of the materials among the arrays.
+const MATERIALS: usize = 4;
 
 /// A scene in device memory, with the view that it is traced by.
 pub(super) struct SceneBuffers {
@@ -22,6 +29,9 @@ pub(super) struct SceneBuffers {
     frame: wgpu::Buffer,
     /// Which of the scene's triangles stands at each place.
     pub(super) order: Vec<u32>,
+    /// What the other arrays were made of, shared with every copy of the scene.
+    nodes: Arc<[Node]>,
+    texels: Arc<[u32]>,
 }
 
 impl SceneBuffers {
@@ -33,29 +43,39 @@ impl SceneBuffers {
         let packed = bvh::pack(&scene.nodes, &scene.triangles);
         let triangles: Vec<Triangle> =
             packed.order.iter().map(|&index| scene.triangles[index as usize]).collect();
-        let arrays: [(_, Cow<'_, [u8]>); SCENE as usize] = [
+        let arrays: [Array<'_>; SCENE as usize] = [
             ("the tree of boxes", bytes(&packed.nodes)),
             ("the triangles", bytes(&triangles)),
             ("the triangles' attributes", bytes(&scene.attributes)),
             ("the triangles' corners", bytes(&scene.corners)),
-            ("the materials", bytes(&scene.materials)),
+            materials(scene),
             ("the textures and the background", bytes(&scene.texels)),
         ];
         for (what, bytes) in &arrays {
             context.check_size(what, bytes.len() as u64)?;
         }
-        let upload = |(what, bytes): &(&'static str, Cow<'_, [u8]>)| {
-            let buffer = context.buffer(what, bytes.len() as u64, STORED)?;
-            context.write(&buffer, bytes)?;
-            Ok(buffer)
-        };
-        let arrays = arrays.iter().map(upload).collect::<Result<_, GpuError>>()?;
-        let lights = bytes(&scene.lights);
-        let frame_size = size_of::<View>() + lights.len();
-        context.check_size("the lights", frame_size as u64)?;
-        let frame = context.buffer("the view and the lights", frame_size as u64, STORED)?;
-        context.queue.write_buffer(&frame, size_of::<View>() as u64, &lights);
-        Ok(Self { layout: bind_group_layout(&context.device), arrays, frame, order: packed.order })
+        Ok(Self {
+            frame: frame(context, scene)?,
+            arrays: arrays.iter().map(|array| upload(context, array)).collect::<Result<_, GpuError>>()?,
+            layout: bind_group_layout(&context.device),
+            order: packed.order,
+            nodes: Arc::clone(&scene.nodes),
+            texels: Arc::clone(&scene.texels),
+        })
+    }
+
+    /// Put another scene in place of this one: quickly where only lights and materials are others.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub(super) fn show(&mut self, context: &Context, scene: &FlatScene) -> Result<(), GpuError> {
+        if Arc::ptr_eq(&self.nodes, &scene.nodes) && Arc::ptr_eq(&self.texels, &scene.texels) {
+            self.frame = frame(context, scene)?;
+            self.arrays[MATERIALS] = upload(context, &materials(scene))?;
+        } else {
+            *self = Self::new(context, scene)?;
+        }
+        Ok(())
     }
 
     /// Trace by this view from the next submission on.
@@ -77,6 +97,26 @@ impl SceneBuffers {
             entries: &entries,
         })
     }
+}
+
+fn materials(scene: &FlatScene) -> Array<'_> {
+    ("the materials", bytes(&scene.materials))
+}
+
+fn upload(context: &Context, (what, bytes): &Array<'_>) -> Result<wgpu::Buffer, GpuError> {
+    let buffer = context.buffer(what, bytes.len() as u64, STORED)?;
+    context.write(&buffer, bytes)?;
+    Ok(buffer)
+}
+
+/// Room for a view, and the lights behind it.
+fn frame(context: &Context, scene: &FlatScene) -> Result<wgpu::Buffer, GpuError> {
+    let lights = bytes(&scene.lights);
+    let size = (size_of::<View>() + lights.len()) as u64;
+    context.check_size("the lights", size)?;
+    let frame = context.buffer("the view and the lights", size, STORED)?;
+    context.queue.write_buffer(&frame, size_of::<View>() as u64, &lights);
+    Ok(frame)
 }
 
 /// The records as bytes; one zero record for none, since no binding may be empty.

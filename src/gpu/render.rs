@@ -134,7 +134,7 @@ impl GpuRenderer {
     /// [`GpuError::TooLarge`], [`GpuError::OutOfMemory`], [`GpuError::DeviceLost`].
     pub fn show(&mut self, scene: &FlatScene) -> Result<(), GpuError> {
         let start = Instant::now();
-        self.scene = SceneBuffers::new(&self.context, scene)?;
+        self.scene.show(&self.context, scene)?;
         self.bvh_depth = self.bvh_depth.max(scene.bvh_depth);
         self.scan = Scan::of(scene);
         self.upload = start.elapsed();

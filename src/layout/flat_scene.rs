@@ -1,5 +1,7 @@
 //! The only scene that renderers read: world-space arrays without names or paths.
 
+use std::sync::Arc;
+
 use super::{Attribute, Corner, Light, Material, Node, Triangle};
 
 /// A body, for tables and messages.
@@ -28,17 +30,18 @@ pub struct FlatTexture {
     pub height: u32,
 }
 
-/// The flattened scene, in world space. Indices and finiteness are proven by `flatten`.
+/// The flattened scene, in world space. Indices and finiteness are proven by `flatten`. A copy shares the large arrays:
+/// what only differs in its lights and materials has the same ones.
 #[derive(Debug, Clone)]
 pub struct FlatScene {
     /// BVH, root first. Never empty.
-    pub nodes: Vec<Node>,
+    pub nodes: Arc<[Node]>,
     /// Triangles in the order of the BVH's leaves.
-    pub triangles: Vec<Triangle>,
+    pub triangles: Arc<[Triangle]>,
     /// One for each primitive id.
-    pub attributes: Vec<Attribute>,
+    pub attributes: Arc<[Attribute]>,
     /// Three for each smooth or textured triangle.
-    pub corners: Vec<Corner>,
+    pub corners: Arc<[Corner]>,
     /// Row 0 is the air.
     pub materials: Vec<Material>,
     /// Names of `materials`.
@@ -47,7 +50,7 @@ pub struct FlatScene {
     pub lights: Vec<Light>,
     /// Words: first the 256 linear values (f32 bits) of 8-bit sRGB; then textures as 0x00BBGGRR words;
     /// then the background picture as three f32 (bits) a texel.
-    pub texels: Vec<u32>,
+    pub texels: Arc<[u32]>,
     /// Transmissive bodies first, by (priority, order in the file); the index is the body id.
     pub bodies: Vec<Body>,
     /// How many of `bodies` are transmissive, ≤ [`MAX_MEDIA`](super::constants::MAX_MEDIA).
@@ -79,16 +82,16 @@ impl FlatScene {
         depth: u32,
     ) -> Self {
         Self {
-            nodes,
-            triangles,
+            nodes: nodes.into(),
+            triangles: triangles.into(),
             bounds,
             bvh_depth: depth,
-            attributes: vec![],
-            corners: vec![],
+            attributes: Arc::default(),
+            corners: Arc::default(),
             materials: vec![],
             material_names: vec![],
             lights: vec![],
-            texels: vec![],
+            texels: Arc::default(),
             bodies: vec![],
             transmissive_bodies: 0,
             ambient: [0.0; 3],

@@ -1,5 +1,7 @@
 //! A scene of one triangle, for probes that need none and pictures that show one.
 
+use std::sync::Arc;
+
 use bytemuck::Zeroable;
 use snellius::layout::constants::NONE;
 use snellius::layout::{Attribute, FlatScene, Light, Material, Node, Triangle, View};
@@ -8,7 +10,7 @@ use snellius::layout::{Attribute, FlatScene, Light, Material, Node, Triangle, Vi
 pub(super) fn triangle() -> FlatScene {
     let (lo, hi) = ([-1.0, -1.0, 0.0], [1.0, 1.0, 0.0]);
     FlatScene {
-        nodes: vec![Node {
+        nodes: Arc::new([Node {
             a_lo: lo,
             a_first: 0,
             a_hi: hi,
@@ -17,31 +19,31 @@ pub(super) fn triangle() -> FlatScene {
             b_first: 0,
             b_hi: hi,
             b_count: 1,
-        }],
-        triangles: vec![Triangle {
+        }]),
+        triangles: Arc::new([Triangle {
             v0: [-1.0, -1.0, 0.0],
             id: 0,
             v1: [1.0, -1.0, 0.0],
             reserved1: 0,
             v2: [-1.0, 1.0, 0.0],
             reserved2: 0,
-        }],
-        attributes: vec![Attribute {
+        }]),
+        attributes: Arc::new([Attribute {
             normal: [0.0, 0.0, 1.0],
             material: 1,
             body: 0,
             other: NONE,
             corners: NONE,
             reserved: 0,
-        }],
-        corners: Vec::new(),
+        }]),
+        corners: Arc::default(),
         materials: vec![
             Material { ior: 1.0, transmission: [1.0; 3], texture: NONE, ..Material::zeroed() },
             Material { ior: 1.0, diffuse: [1.0; 3], texture: NONE, ..Material::zeroed() },
         ],
         material_names: vec!["air".into(), "paper".into()],
         lights: vec![Light { position: [0.0, 0.0, 3.0], intensity: [1.0; 3], ..Light::zeroed() }],
-        texels: Vec::new(),
+        texels: Arc::default(),
         bodies: Vec::new(),
         transmissive_bodies: 0,
         bounds: [lo, hi],

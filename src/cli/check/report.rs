@@ -171,12 +171,12 @@ fn buffers(flat: &FlatScene, [width, height]: [u32; 2]) -> Vec<Buffer> {
     let packed = bvh::pack(&flat.nodes, &flat.triangles);
     let sized = [
         ("nodes", size_of_val(packed.nodes.as_slice()) as u64),
-        ("triangles", size_of_val(flat.triangles.as_slice()) as u64),
-        ("attributes", size_of_val(flat.attributes.as_slice()) as u64),
-        ("corners", size_of_val(flat.corners.as_slice()) as u64),
+        ("triangles", size_of_val(&*flat.triangles) as u64),
+        ("attributes", size_of_val(&*flat.attributes) as u64),
+        ("corners", size_of_val(&*flat.corners) as u64),
         ("materials", size_of_val(flat.materials.as_slice()) as u64),
         ("lights", size_of_val(flat.lights.as_slice()) as u64),
-        ("texels", size_of_val(flat.texels.as_slice()) as u64),
+        ("texels", size_of_val(&*flat.texels) as u64),
         ("film", pixels * size_of::<Texel>() as u64),
         ("film with AOVs", pixels * (size_of::<Texel>() + size_of::<Aov>()) as u64),
     ];

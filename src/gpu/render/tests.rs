@@ -171,3 +171,24 @@ impl<F: Fn(u64, u64) -> ControlFlow<()> + Sync> Progress for Hear<F> {
         self.0(done, total)
     }
 }
+
+#[test]
+fn a_scene_shown_in_place_of_another_gives_its_bits_and_a_copy_keeps_the_tree_that_is_there() {
+    let Some(options) = find("llvmpipe") else { return };
+    let mut subject = Subject::new("goblet.toml", [24, 32], 1);
+    let mut renderer = subject.renderer(&options);
+    let first = renderer.trace(&subject).unwrap();
+    let order = renderer.scene.order.as_ptr();
+    // Other lights, one more of them, and another material.
+    let light = subject.scene.lights[0];
+    subject.scene.lights.push(Light { position: light.position.map(|x| -x), ..light });
+    subject.scene.materials.iter_mut().for_each(|material| material.ambient = [0.1, 0.2, 0.3]);
+    renderer.show(&subject.scene).unwrap();
+    assert_eq!(renderer.scene.order.as_ptr(), order);
+    let revised = renderer.trace(&subject).unwrap();
+    assert_ne!(revised.texels, first.texels);
+    assert_same(&revised, &subject.on_cpu());
+    let other = Subject::new("prism.toml", [24, 32], 1);
+    renderer.show(&other.scene).unwrap();
+    assert_same(&renderer.trace(&other).unwrap(), &other.on_cpu());
+}

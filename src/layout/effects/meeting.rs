@@ -112,7 +112,7 @@ impl Extent {
 /// The extents of each of the first `count` bodies along some directions.
 fn extents(scene: &FlatScene, count: usize, directions: &[[f64; 3]]) -> Vec<Vec<Extent>> {
     let mut extents = vec![vec![Extent::EMPTY; directions.len()]; count];
-    for triangle in &scene.triangles {
+    for triangle in &*scene.triangles {
         for body in bodies_of(scene, triangle) {
             let Some(body) = extents.get_mut(body) else { continue };
             for (extent, direction) in body.iter_mut().zip(directions) {

@@ -99,7 +99,7 @@ impl<'a> Scanner<'a> {
     fn new(scene: &'a FlatScene) -> Self {
         let mut used = vec![false; scene.materials.len()];
         let mut smooth = None;
-        for face in &scene.attributes {
+        for face in &*scene.attributes {
             used[face.material as usize] = true;
             if smooth.is_none() && face.corners != Attribute::NONE {
                 smooth = Some(face);

@@ -7,6 +7,8 @@
 //! At an edge a ray may meet two faces, one or, where it goes on behind one of them, jump over the other. Events are
 //! idempotent, so that the next face mends it; how often it happens is reported.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use crate::layout::constants::NONE;
@@ -120,7 +122,7 @@ impl Subject {
         let turned = order >= 3;
         let mut random = Random::new("orders");
         let mut flat = self.stage.flat.clone();
-        for triangle in &mut flat.triangles {
+        for triangle in Arc::make_mut(&mut flat.triangles) {
             let shift = random.below(3) as usize;
             let corners = [triangle.v0, triangle.v1, triangle.v2];
             let [a, b, c] = ORDERS[order / 3 * 3 + (order + shift) % 3];
@@ -172,7 +174,7 @@ impl Subject {
 }
 
 fn turn_normals(flat: &mut FlatScene) {
-    for face in &mut flat.attributes {
+    for face in Arc::make_mut(&mut flat.attributes) {
         face.normal = face.normal.map(|x| 0.0 - x);
     }
 }

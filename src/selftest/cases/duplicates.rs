@@ -117,9 +117,9 @@ fn doubled_flat(flat: FlatScene) -> Result<FlatScene, SceneError> {
         bvh::build(&triangles, bvh::Preset::default()).map_err(|e| Diagnostic::error(e.to_string()))?;
     Ok(FlatScene {
         triangles: tree.order.iter().map(|&index| triangles[index as usize]).collect(),
-        nodes: tree.nodes,
+        nodes: tree.nodes.into(),
         bvh_depth: tree.depth,
-        attributes: flat.attributes.repeat(2),
+        attributes: flat.attributes.repeat(2).into(),
         ..flat
     })
 }

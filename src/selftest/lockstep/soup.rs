@@ -26,17 +26,17 @@ pub(super) fn scene() -> FlatScene {
     let mut nodes = Vec::new();
     let depth = add_node(&mut nodes, &triangles, 0, TRIANGLES);
     FlatScene {
-        nodes,
+        nodes: nodes.into(),
         attributes: triangles.iter().map(attribute).collect(),
         corners: (0..3 * TRIANGLES).map(|_| corner(&mut random)).collect(),
-        triangles,
+        triangles: triangles.into(),
         materials: materials(),
         material_names: ["air", "glass", "water", "metal", "paper"].map(str::to_owned).to_vec(),
         lights: vec![
             Light { position: [1.5, 2.5, 1.0], intensity: [0.9, 0.8, 0.7], ..Light::zeroed() },
             Light { position: [-2.0, 0.5, 2.0], inverse_square: 1, intensity: [3.0, 4.0, 5.0], reserved: 0 },
         ],
-        texels: texels(&mut random),
+        texels: texels(&mut random).into(),
         bodies: Vec::new(),
         transmissive_bodies: 3,
         bounds: [[-2.0; 3], [2.0; 3]],
