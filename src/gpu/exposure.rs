@@ -190,11 +190,9 @@ impl GpuRenderer {
             last.map_or_else(|| first_pace(&job, &variant), |(_, pace)| pace).aiming_at(SUBMISSION);
         let mut exposure = blank(&job.film, view, &variant);
         exposure.times.compile = start.elapsed();
-        let traced = Instant::now();
         'passes: for first_sample in 0..view.samples {
             pace = pace.again(blocks, 1);
             while trace_next(&job, &mut pace, blocks, first_sample, &mut exposure)?.is_some() {
-                exposure.times.trace = traced.elapsed();
                 if watch(&exposure) == ControlFlow::Break(()) {
                     break 'passes;
                 }
@@ -260,8 +258,10 @@ pub(super) fn trace_next(
     exposure: &mut Exposure,
 ) -> Result<Option<Tile>, GpuError> {
     let Some(tile) = pace.next(end) else { return Ok(None) };
+    let start = Instant::now();
     let longest = job.trace_tile(Tile { first_sample, ..tile }, &mut exposure.rays)?;
     pace.took(longest);
+    exposure.times.trace += start.elapsed();
     if !exposure.is_complete() {
         exposure.blocks = pace.finished_blocks();
         if exposure.blocks == job.blocks.count() {

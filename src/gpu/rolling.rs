@@ -73,12 +73,10 @@ impl GpuRenderer {
         let exposure = &mut rolling.exposure;
         exposure.rays = RayCounts::default();
         exposure.times = TraceTimes { compile: start.elapsed(), ..TraceTimes::default() };
-        let traced = Instant::now();
         let (first, mut done) = (rolling.next, 0);
         'round: for (begin, end) in [(first, blocks), (0, first)] {
             pace = pace.from(begin);
             while let Some(tile) = trace_next(&job, &mut pace, end, 0, exposure)? {
-                exposure.times.trace = traced.elapsed();
                 rolling.next = (tile.first_block + tile.block_count) % blocks;
                 done += tile.block_count;
                 if done < blocks && watch(exposure) == ControlFlow::Break(()) {

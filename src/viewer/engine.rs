@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
 
 use super::TraceError;
 use super::scale::scaled;
@@ -36,15 +37,13 @@ pub(super) trait Engine {
         listen: Listen<'_>,
     ) -> Result<Option<Exposure>, TraceError>;
 
-    /// Trace a picture in motion, of one sample a pixel: a slow device over the last one, from where that was broken off.
-    /// What it heard and was not complete is in work; the part of the picture that shows this view, and all of it if it is
-    /// the whole.
+    /// Trace a picture in motion, of one sample a pixel: over the last one, from where that was broken off.
     fn follow(
         &mut self,
         view: &View,
         settings: &Settings,
         listen: Listen<'_>,
-    ) -> Result<(f64, Option<Exposure>), TraceError>;
+    ) -> Result<Followed, TraceError>;
 
     /// The next picture in motion begins anew.
     fn rest(&mut self);
@@ -66,6 +65,16 @@ pub(super) trait Engine {
         settings: &Settings,
         pixel: [u32; 2],
     ) -> Result<Option<(Vec<TreeNode>, bool)>, TraceError>;
+}
+
+/// What became of a picture in motion.
+pub(super) struct Followed {
+    /// The part of it that was traced, 0 to 1.
+    pub(super) share: f64,
+    /// What that took.
+    pub(super) time: Duration,
+    /// The picture, if it was not broken off.
+    pub(super) whole: Option<Exposure>,
 }
 
 /// Hears again and again what there is of the picture, if anything, and may break off.
@@ -181,14 +190,15 @@ impl Engine for GpuEngine {
         view: &View,
         settings: &Settings,
         listen: Listen<'_>,
-    ) -> Result<(f64, Option<Exposure>), TraceError> {
+    ) -> Result<Followed, TraceError> {
         let usable = self.serve(settings);
         let last = self.rolling.take();
         let rolling = self.renderer.roll(last, view, &usable, &|exposure| listen(Some(exposure)))?;
-        let whole = (rolling.share == 1.0).then(|| rolling.exposure.clone());
-        let share = rolling.share;
+        let Rolling { share, exposure, .. } = &rolling;
+        let whole = (*share == 1.0).then(|| exposure.clone());
+        let followed = Followed { share: *share, time: exposure.times.trace, whole };
         self.rolling = Some(rolling);
-        Ok((share, whole))
+        Ok(followed)
     }
 
     fn rest(&mut self) {
@@ -294,10 +304,11 @@ impl Engine for CpuEngine<'_> {
         view: &View,
         settings: &Settings,
         _listen: Listen<'_>,
-    ) -> Result<(f64, Option<Exposure>), TraceError> {
+    ) -> Result<Followed, TraceError> {
+        let start = Instant::now();
         // What is broken off leaves nothing.
         let whole = self.expose(view, settings, &|_| ControlFlow::Continue(()))?;
-        Ok((1.0, whole))
+        Ok(Followed { share: 1.0, time: start.elapsed(), whole })
     }
 
     fn rest(&mut self) {}

@@ -51,6 +51,7 @@ impl Shown {
         (self.left_out, self.has_news) = (None, false);
         let measured = self.measure().map_err(ViewerError::Gpu);
         let shown = measured.and_then(|()| self.canvas.paint(painted, &self.session.look, self.area));
+        self.tracer.note_paint();
         match shown {
             Ok(is_shown) => {
                 self.frames += u32::from(is_shown);

@@ -13,6 +13,9 @@ pub(super) struct Inbox {
     pub(super) changed: Condvar,
     /// Of the last request.
     pub(super) serial: AtomicU64,
+    /// Whether the window was painted since the thread asked for it.
+    is_painted: Mutex<bool>,
+    painted: Condvar,
 }
 
 #[derive(Default)]
@@ -32,6 +35,22 @@ impl Inbox {
 
     pub(super) fn serial(&self) -> u64 {
         self.serial.load(Ordering::Acquire)
+    }
+
+    /// The window was painted.
+    pub(super) fn note_paint(&self) {
+        *self.is_painted.lock().unwrap_or_else(PoisonError::into_inner) = true;
+        self.painted.notify_one();
+    }
+
+    /// Say something that has the window painted, and wait until it is, but not for long: the device paints before it
+    /// traces on.
+    pub(super) fn have_painted(&self, patience: Duration, say: impl FnOnce()) {
+        *self.is_painted.lock().unwrap_or_else(PoisonError::into_inner) = false;
+        say();
+        let is_painted = self.is_painted.lock().unwrap_or_else(PoisonError::into_inner);
+        let waited = self.painted.wait_timeout_while(is_painted, patience, |is_painted| !*is_painted);
+        drop(waited.unwrap_or_else(PoisonError::into_inner));
     }
 
     /// What is to be done next; none at the end, or when `patience` is over.

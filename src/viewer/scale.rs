@@ -14,24 +14,34 @@ const AIM: f64 = 0.85;
 /// The part of a window's width and height that a moving picture is traced at, up to 1. The first frame is the smallest:
 /// its time tells how large the next may be.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Scale(f64);
+pub struct Scale {
+    factor: f64,
+    is_late: bool,
+}
 
 impl Scale {
     /// The size of a moving picture in a window of this size: not above it, with a long side of at least
     /// [`LEAST_SIDE`] where the window has that.
     #[must_use]
     pub fn of(self, size: [u32; 2]) -> [u32; 2] {
-        scaled(size, self.0.max(least(size)))
+        scaled(size, self.factor.max(least(size)))
     }
 
     /// Learn what a picture took that was traced at [`Scale::of`] the window's size.
     pub fn took(&mut self, size: [u32; 2], time: Duration) {
         let load = time.as_secs_f64() / TARGET.as_secs_f64();
+        self.is_late = load > 1.0 && self.factor <= least(size);
         if !(IDLE..=1.0).contains(&load) {
             // Time grows with the area.
-            let wanted = self.0.max(least(size)) * (AIM / load.max(1e-3)).sqrt();
-            self.0 = wanted.clamp(least(size), 1.0);
+            let wanted = self.factor.max(least(size)) * (AIM / load.max(1e-3)).sqrt();
+            self.factor = wanted.clamp(least(size), 1.0);
         }
+    }
+
+    /// Whether not even the smallest picture came within its time.
+    #[must_use]
+    pub fn is_late(self) -> bool {
+        self.is_late
     }
 }
 
@@ -87,6 +97,21 @@ mod tests {
     fn a_fast_device_traces_every_pixel_and_a_slow_one_128() {
         assert_eq!(frames(1e6, 12)[11].0, WINDOW);
         assert_eq!(frames(1.0, 12)[11].0, [128, 72]);
+    }
+
+    #[test]
+    fn late_is_who_cannot_trace_the_smallest_picture_in_its_time() {
+        let mut scale = Scale::default();
+        let mut took = |ms| {
+            scale.took(WINDOW, Duration::from_millis(ms));
+            (scale.is_late(), scale.of(WINDOW)[0] == 128)
+        };
+        assert_eq!(took(300), (true, true));
+        // A part of its time: larger pictures come.
+        assert_eq!(took(5), (false, false));
+        assert_eq!(took(60), (false, false));
+        assert_eq!(took(2000), (false, true));
+        assert_eq!(took(300), (true, true));
     }
 
     #[test]

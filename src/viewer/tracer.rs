@@ -172,6 +172,11 @@ impl Tracer {
         serial
     }
 
+    /// The window was painted, and the device has been told.
+    pub fn note_paint(&self) {
+        self.inbox.note_paint();
+    }
+
     /// Trace the tree of a pixel of a picture at rest on the adapter, once there is time for it.
     pub fn ask(&self, wanted: Wanted, pixel: [u32; 2]) {
         self.inbox.lock().question = Some((wanted, pixel));

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::engine::{CpuEngine, Engine, GpuEngine};
+use super::engine::{CpuEngine, Engine, Followed, GpuEngine};
 use super::inbox::{Inbox, Request, Task};
 use super::scale::{Scale, TARGET};
 use super::stage::Stage;
@@ -20,8 +20,11 @@ use crate::layout::{Settings, View};
 const REST: Duration = Duration::from_millis(80);
 /// How often a picture in work is shown.
 const SHOW: Duration = Duration::from_millis(120);
-/// How soon a moving picture is shown in part, where the device cannot trace the smallest one in its time.
+/// How soon a moving picture is shown in part where the device cannot trace the smallest one in its time.
 const SHOW_IN_MOTION: Duration = Duration::from_millis(12);
+
+/// How long a picture in motion waits for the window to show what there is of it.
+const PAINT: Duration = Duration::from_millis(40);
 
 /// Settings of pictures in motion: those at rest, so that one pipeline serves both, but for what needs many samples.
 fn in_motion(settings: &Settings) -> Settings {
@@ -195,20 +198,24 @@ impl Worker {
             return Ok(());
         }
         let size = engine.fitting(wanted.size_in_motion(self.scale), &settings)?;
-        let start = Instant::now();
         let view = View { samples: 1, ..wanted.view(size, &settings) };
-        let show = self.shows(request, SHOW_IN_MOTION);
+        // What comes within its time is not torn.
+        let patience = if self.scale.is_late() { SHOW_IN_MOTION } else { TARGET };
+        let start = Instant::now();
+        let show = shows(patience, |exposure| {
+            let kind = if exposure.is_complete() { Kind::Motion } else { Kind::Growing };
+            self.inbox.have_painted(PAINT, || self.tell(exposure.clone(), request, kind));
+        });
         let listen = |exposure: Option<&Exposure>| {
             show(exposure);
-            // What comes within its time is not torn.
-            if start.elapsed() < TARGET { ControlFlow::Continue(()) } else { self.goes_on(request.serial) }
+            if start.elapsed() < patience { ControlFlow::Continue(()) } else { self.goes_on(request.serial) }
         };
-        let (share, exposure) = engine.follow(&view, &settings, &listen)?;
+        let Followed { share, time, whole } = engine.follow(&view, &settings, &listen)?;
         drop(show);
         if wanted.resolution == Resolution::Auto && share > 0.0 {
-            self.scale.took(wanted.size, start.elapsed().div_f64(share));
+            self.scale.took(wanted.size, time.div_f64(share));
         }
-        if let Some(exposure) = exposure {
+        if let Some(exposure) = whole {
             self.tell(exposure, request, Kind::Motion);
         }
         Ok(())
@@ -222,7 +229,7 @@ impl Worker {
             return Ok(());
         }
         let size = engine.fitting(wanted.size_at_rest(), &wanted.settings)?;
-        let show = self.shows(request, SHOW);
+        let show = shows(SHOW, |exposure| self.tell(exposure.clone(), request, Kind::Growing));
         let listen = |exposure: Option<&Exposure>| {
             let flow = self.goes_on(request.serial);
             if flow == ControlFlow::Continue(()) {
@@ -242,23 +249,6 @@ impl Worker {
     /// Whether nothing else was asked for since that request.
     fn goes_on(&self, serial: u64) -> ControlFlow<()> {
         if self.inbox.serial() == serial { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-    }
-
-    /// Tells what there is of a picture: when the first time is over, then again and again. One in motion is shown as a
-    /// whole once it is complete, though its film is traced over.
-    fn shows<'a>(&'a self, request: &'a Request, first: Duration) -> impl Fn(Option<&Exposure>) + Sync + 'a {
-        let next = Mutex::new(Instant::now() + first);
-        move |exposure| {
-            let mut next = next.lock().unwrap_or_else(PoisonError::into_inner);
-            let has_begun = |one: &&Exposure| one.blocks + one.passes > 0;
-            if let Some(exposure) = exposure.filter(has_begun)
-                && Instant::now() >= *next
-            {
-                *next = Instant::now() + SHOW;
-                let kind = if exposure.is_complete() { Kind::Motion } else { Kind::Growing };
-                self.tell(exposure.clone(), request, kind);
-            }
-        }
     }
 
     /// The finished picture once more, by the CPU, if that is asked for.
@@ -313,5 +303,23 @@ impl Worker {
     fn tell(&self, exposure: Exposure, request: &Request, kind: Kind) {
         let traced = Traced { exposure, serial: request.serial, kind, age: request.since.elapsed() };
         (self.say)(Report::Traced(traced));
+    }
+}
+
+/// Calls `tell` with what there is of a picture: when the first time is over, then again and again.
+fn shows<'a>(
+    first: Duration,
+    tell: impl Fn(&Exposure) + Sync + 'a,
+) -> impl Fn(Option<&Exposure>) + Sync + 'a {
+    let next = Mutex::new(Instant::now() + first);
+    move |exposure| {
+        let mut next = next.lock().unwrap_or_else(PoisonError::into_inner);
+        let has_begun = |one: &&Exposure| one.blocks + one.passes > 0;
+        if let Some(exposure) = exposure.filter(has_begun)
+            && Instant::now() >= *next
+        {
+            *next = Instant::now() + SHOW;
+            tell(exposure);
+        }
     }
 }
