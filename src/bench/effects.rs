@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use super::{BenchError, Ratio, Target, Tracer, interleave, median};
+use super::{BenchError, Ratio, Target, Tracer, median, take_turns};
 use crate::film::{Frame, Renderer};
 use crate::flatten::{flatten, view};
 use crate::gpu::InvocationMemory;
@@ -90,7 +90,7 @@ impl Stage {
     /// The effects that it calls for.
     #[must_use]
     pub fn effects(&self) -> EffectSet {
-        Scan::of(&self.scene).effects(&self.settings).plan(&self.settings).effects
+        effects(self, &self.settings)
     }
 }
 
@@ -117,92 +117,62 @@ pub fn compare_effects(
     general: EffectChoice,
     rounds: usize,
 ) -> Result<Option<EffectRow>, BenchError> {
-    let choices = [EffectChoice::Auto, general];
-    let [mut special, mut general] = [
-        Side::open(stage, &stage.view, target, choices[0])?,
-        Side::open(stage, &stage.view, target, choices[1])?,
-    ];
-    if !is_same(&special.first, &general.first) {
+    let sides = [EffectChoice::Auto, general].map(|effects| Settings { effects, ..stage.settings });
+    // One renderer for both, so that scene and film lie where they lie.
+    let mut tracer = target.open(&stage.scene)?;
+    let first = tracer.render(&stage.view, &sides[0], &())?;
+    if !is_same(&first, &tracer.render(&stage.view, &sides[1], &())?) {
         return Ok(None);
     }
-    let added = general.effects().minus(special.effects());
-    let [special_times, general_times] =
-        interleave(rounds, &mut [&mut || special.trace(), &mut || general.trace()])?;
-    let compile_ms = match target {
-        Target::Cpu { .. } => None,
-        Target::Adapter(_) => Some(compile_times(stage, target, choices)?),
+    let [special, general] = sides.map(|settings| effects(stage, &settings));
+    let trace = |side: usize| -> Result<Duration, BenchError> {
+        Ok(tracer.render(&stage.view, &sides[side], &())?.times.trace)
     };
-    let memory = match (special.memory()?, general.memory()?) {
-        (Some(special), Some(general)) => Some(Sides { special, general }),
-        _ => None,
-    };
+    let times = take_turns(rounds, sides.len(), trace)?;
+    let [special_ms, general_ms] = [0, 1].map(|side| milliseconds(median(&times[side])));
     Ok(Some(EffectRow {
         scene: stage.name.clone(),
         device: target.name(),
-        added: added.iter().map(Effect::name).collect(),
-        rays: special.first.rays.total(),
-        trace_ms: Sides {
-            special: milliseconds(median(&special_times)),
-            general: milliseconds(median(&general_times)),
+        added: general.minus(special).iter().map(Effect::name).collect(),
+        rays: first.rays.total(),
+        trace_ms: Sides { special: special_ms, general: general_ms },
+        ratio: Ratio::of(&times[1], &times[0]),
+        compile_ms: match target {
+            Target::Cpu { .. } => None,
+            Target::Adapter(_) => Some(compile_times(stage, target, sides)?),
         },
-        ratio: Ratio::of(&general_times, &special_times),
-        compile_ms,
-        memory,
+        memory: memory(&mut tracer, sides)?,
     }))
 }
 
 /// Median times in milliseconds until fresh renderers can trace, in turn. What a driver does once in a process is done.
-fn compile_times(
-    stage: &Stage,
-    target: &Target,
-    choices: [EffectChoice; 2],
-) -> Result<Sides<f64>, BenchError> {
+fn compile_times(stage: &Stage, target: &Target, sides: [Settings; 2]) -> Result<Sides<f64>, BenchError> {
     let mut times = [const { Vec::new() }; 2];
     for _ in 0..COMPILES {
-        for (choice, times) in choices.into_iter().zip(&mut times) {
-            times.push(Side::open(stage, &stage.glance, target, choice)?.first.times.compile);
+        for (settings, times) in sides.iter().zip(&mut times) {
+            let first = target.open(&stage.scene)?.render(&stage.glance, settings, &())?;
+            times.push(first.times.compile);
         }
     }
     let [special, general] = times.map(|times| milliseconds(median(&times)));
     Ok(Sides { special, general })
 }
 
-/// A renderer of its own, so that its buffers stay, and its first picture.
-struct Side<'a> {
-    stage: &'a Stage,
-    view: &'a View,
-    settings: Settings,
-    tracer: Tracer<'a>,
-    first: Frame,
+/// What an invocation of either side takes; none on the CPU.
+fn memory(
+    tracer: &mut Tracer<'_>,
+    [special, general]: [Settings; 2],
+) -> Result<Option<Sides<InvocationMemory>>, BenchError> {
+    let Tracer::Gpu(renderer) = tracer else { return Ok(None) };
+    Ok(Some(Sides {
+        special: renderer.invocation_memory(&special)?,
+        general: renderer.invocation_memory(&general)?,
+    }))
 }
 
-impl<'a> Side<'a> {
-    fn open(
-        stage: &'a Stage,
-        view: &'a View,
-        target: &Target,
-        effects: EffectChoice,
-    ) -> Result<Self, BenchError> {
-        let settings = Settings { effects, ..stage.settings };
-        let mut tracer = target.open(&stage.scene)?;
-        let first = tracer.render(view, &settings, &())?;
-        Ok(Self { stage, view, settings, tracer, first })
-    }
-
-    fn trace(&mut self) -> Result<Duration, BenchError> {
-        Ok(self.tracer.render(self.view, &self.settings, &())?.times.trace)
-    }
-
-    fn effects(&self) -> EffectSet {
-        Scan::of(&self.stage.scene).effects(&self.settings).plan(&self.settings).effects
-    }
-
-    fn memory(&mut self) -> Result<Option<InvocationMemory>, BenchError> {
-        match &mut self.tracer {
-            Tracer::Cpu(_) => Ok(None),
-            Tracer::Gpu(renderer) => Ok(Some(renderer.invocation_memory(&self.settings)?)),
-        }
-    }
+/// What is simulated under these settings.
+fn effects(stage: &Stage, settings: &Settings) -> EffectSet {
+    Scan::of(&stage.scene).effects(settings).plan(settings).effects
 }
 
 /// Whether both frames show the same, bit for bit, after as many rays of each kind.

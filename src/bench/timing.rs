@@ -7,22 +7,9 @@ use serde::{Deserialize, Serialize};
 /// Chance that an interval misses the ratio that it is for, at each of its ends.
 const TAIL: f64 = 0.025;
 
-/// Run every side once to warm up, then all of them in turn for so many rounds; returns each side's times.
+/// Run every side, by its number, once to warm up, then all of them in turn for so many rounds; returns each side's times.
 ///
 /// Every other round goes the other way round: what grows steadily, such as heat, then weighs on all sides alike.
-///
-/// # Errors
-/// The first of a side.
-pub fn interleave<E, const N: usize>(
-    rounds: usize,
-    sides: &mut [&mut dyn FnMut() -> Result<Duration, E>; N],
-) -> Result<[Vec<Duration>; N], E> {
-    let times = take_turns(rounds, N, |side| sides[side]())?;
-    let mut times = times.into_iter();
-    Ok(std::array::from_fn(|_| times.next().unwrap_or_default()))
-}
-
-/// [`interleave`] of any number of sides: runs them by their number.
 ///
 /// # Errors
 /// The first of a side.
@@ -139,22 +126,20 @@ fn ends_beyond(n: usize) -> usize {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
-    use std::cell::RefCell;
     use std::convert::Infallible;
 
     use super::*;
 
     #[test]
-    fn sides_take_turns_after_a_warm_up() {
-        let order = RefCell::new(String::new());
-        let run = |name: char, millis: u64| {
-            order.borrow_mut().push(name);
-            Ok::<_, Infallible>(Duration::from_millis(millis))
-        };
-        let (mut a, mut b) = (|| run('a', 3), || run('b', 6));
-        let [first, second] = interleave(3, &mut [&mut a, &mut b]).unwrap();
-        assert_eq!(order.into_inner(), "ababbaab");
-        assert_eq!((first.len(), second), (3, vec![Duration::from_millis(6); 3]));
+    fn sides_take_turns_after_a_warm_up_and_every_other_round_goes_back() {
+        let mut order = String::new();
+        let times = take_turns(3, 2, |side| {
+            order.push(['a', 'b'][side]);
+            Ok::<_, Infallible>(Duration::from_millis([3, 6][side]))
+        })
+        .unwrap();
+        assert_eq!(order, "ababbaab");
+        assert_eq!(times, [3, 6].map(|ms| vec![Duration::from_millis(ms); 3]));
     }
 
     #[test]
