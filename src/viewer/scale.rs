@@ -126,10 +126,10 @@ mod tests {
         for _ in 0..10 {
             scale.took(WINDOW, Duration::from_millis(90));
         }
-        let before = scale.of(WINDOW);
+        let before = scale.factor;
         for ms in [19, 29, 24, 22, 30] {
             scale.took(WINDOW, Duration::from_millis(ms));
         }
-        assert_eq!(scale.of(WINDOW), before);
+        assert_eq!(scale.factor, before);
     }
 }

@@ -177,9 +177,8 @@ fn a_hand_orbits_resizes_drops_breaks_and_repairs_and_all_is_answered() {
         assert_ne!(shot(other), first, "{other}");
     }
     let timings: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
-    assert!(timings["answers"].as_u64().unwrap() >= 12, "{timings}");
-    // On an idle machine none takes a second: tests/viewer/timings.script.
-    assert!(timings["slowest_frame_ms"].as_f64().unwrap() < 5000.0, "{timings}");
+    assert!(timings["answers"].as_u64().unwrap() >= 18, "{timings}");
+    assert!(timings["slowest_frame_ms"].as_f64().unwrap() < 1000.0, "{timings}");
     let times = |name: &str| timings[name].as_array().unwrap().len() as u64;
     assert_eq!(timings["answers"].as_u64(), Some(times("each_answer")), "{timings}");
     assert_eq!(timings["frames"].as_u64(), Some(times("each_frame")), "{timings}");
