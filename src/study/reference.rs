@@ -44,8 +44,10 @@ pub(super) struct Reference {
 const RUNGS: [f32; 6] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
 /// The next rung takes at least this many times as long.
 const LEAST_GROWTH: f64 = 1.3;
-/// Samples of the sampling reference, as time allows; each is rendered with a quarter of them too.
-const MOST_SAMPLES: [u32; 6] = [256, 128, 64, 32, 16, 8];
+/// Samples of the sampling reference, as time allows.
+const MOST_SAMPLES: [u32; 2] = [256, 128];
+/// And at the least: fewer judge no row of as many samples. They may take twice the time.
+const LEAST_SAMPLES: u32 = 64;
 
 impl Reference {
     fn new(shot: &Shot, setup: String, uncertainty: Uncertainty) -> Self {
@@ -138,19 +140,21 @@ pub(super) fn whole(
     Ok(Some(reference))
 }
 
-/// As many samples in f64 as fit the time, and a quarter of them. The means of N independent samples of variance σ² and of
-/// their first quarter are √(4/N − 1/N)·σ apart, √3 standard errors σ/√N of the former. Samples of a low-discrepancy
-/// sequence err less than that.
+/// As many samples in f64 as fit the time, and a quarter of them in the rows' own arithmetic, whose roundoff is nothing
+/// beside the error of so few. The means of N independent samples of variance σ² and of their first quarter are
+/// √(4/N − 1/N)·σ apart, √3 standard errors σ/√N of the former. Samples of a low-discrepancy sequence err less than that.
 pub(super) fn sampling(
     lab: &mut Lab,
     base: Settings,
     one_sample: Duration,
     limit: Duration,
 ) -> Result<Option<Reference>, StudyError> {
-    let affordable = |samples: &&u32| one_sample.mul_f64(f64::from(**samples) * 1.25) <= limit;
-    let Some(&samples) = MOST_SAMPLES.iter().find(affordable) else { return Ok(None) };
-    let mut shoot = |samples| lab.shoot(&judge(Settings { samples, ..base }), limit * 2);
-    let (Some(quarter), Some(whole)) = (shoot(samples / 4)?, shoot(samples)?) else { return Ok(None) };
+    let affordable = |samples: &u32| one_sample.mul_f64(f64::from(*samples) * 1.25) <= limit;
+    let samples = MOST_SAMPLES.into_iter().find(affordable).unwrap_or(LEAST_SAMPLES);
+    let few = Setup { settings: Settings { samples: samples / 4, ..base }, ..judge(base) };
+    let many = judge(Settings { samples, ..base });
+    let Some(quarter) = lab.shoot(&few, limit)? else { return Ok(None) };
+    let Some(whole) = lab.shoot(&many, limit * 2)? else { return Ok(None) };
     let apart = Errors::between(&Seen::of(&quarter.frame), &Seen::of(&whole.frame))?;
     let uncertainty = Uncertainty {
         certified: None,
