@@ -40,6 +40,11 @@ fn take3() -> vec3r {
     return vec3r(x, y, z);
 }
 
+// Write behind what was taken, not over it: the record can be run again.
+fn put_behind() {
+    writing = reading;
+}
+
 // Write a word over the next word; all is taken by then.
 fn put_word(word: u32) {
     records.words[writing] = word;

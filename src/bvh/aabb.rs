@@ -1,5 +1,7 @@
 //! Axis-aligned boxes.
 
+use rayon::prelude::*;
+
 use crate::layout::Triangle;
 
 /// An axis-aligned box; empty where `lo > hi`.
@@ -36,4 +38,13 @@ impl Aabb {
         let [x, y, z] = std::array::from_fn(|axis| f64::from(self.hi[axis]) - f64::from(self.lo[axis]));
         if x < 0.0 { 0.0 } else { x * y + y * z + z * x }
     }
+}
+
+/// The power of two that brings every coordinate into [−1, 1], where areas do not overflow f32.
+pub(super) fn unit_scale(triangles: &[Triangle]) -> f32 {
+    let Aabb { lo, hi } = triangles.par_iter().map(Aabb::of).reduce(|| Aabb::EMPTY, |a, b| a.union(&b));
+    let largest = lo.into_iter().chain(hi).fold(f32::MIN_POSITIVE, |largest, x| largest.max(x.abs()));
+    // The exponent is in −126..=127, so that the scale's is in −127..=126: within f32, subnormals included.
+    let exponent = (largest.to_bits() >> 23) as i32 - 127;
+    2.0_f32.powi(-exponent - 1)
 }

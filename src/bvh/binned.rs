@@ -4,6 +4,7 @@
 use glam::Vec4;
 use rayon::prelude::*;
 
+use super::aabb::unit_scale;
 use super::tree::{Branch, Tree};
 use super::{MAX_LEAF, NODE_COST};
 use crate::layout::Triangle;
@@ -18,29 +19,42 @@ const ITEMS_A_BIN: usize = 16;
 
 /// Subtrees over fewer triangles are built by one thread.
 const PARALLEL: usize = 8192;
+/// Items that a thread looks at in a row where all threads look at the items of one node.
+const CHUNK: usize = 16_384;
+
+/// How far to split.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Leaves {
+    /// Until the triangles fit into a leaf.
+    Full,
+    /// As long as it lessens the expected cost.
+    Cheapest,
+}
 
 /// Build a tree of at most [`MAX_BVH_DEPTH`] levels with at most [`MAX_LEAF`] triangles a leaf, for any
 /// triangles with finite corners. `triangles` is not empty; each node comes before its children.
-pub(super) fn build(triangles: &[Triangle]) -> Tree {
-    let item = |(index, triangle)| Item::new(triangle, index as u32);
+pub(super) fn build(triangles: &[Triangle], leaves: Leaves) -> Tree {
+    let scale = unit_scale(triangles);
+    let item = |(index, triangle)| Item::new(triangle, scale, index as u32);
     let mut items: Vec<Item> = triangles.par_iter().enumerate().map(item).collect();
-    let nodes = subtree(&mut items, 0, MAX_BVH_DEPTH);
+    let nodes = subtree(&mut items, 0, MAX_BVH_DEPTH, leaves);
     Tree { nodes, order: items.iter().map(Item::index).collect() }
 }
 
 /// The nodes over `items`, whose first stands at `offset` in the order; at most `levels` inner nodes follow
 /// each other.
-fn subtree(items: &mut [Item], offset: u32, levels: u32) -> Vec<Branch> {
+fn subtree(items: &mut [Item], offset: u32, levels: u32, leaves: Leaves) -> Vec<Branch> {
     if items.len() < PARALLEL {
-        let mut grower = Grower { nodes: vec![Branch { first: 0, count: 0 }], gathered: Gathered::new() };
+        let mut grower =
+            Grower { nodes: vec![Branch { first: 0, count: 0 }], gathered: Gathered::new(), leaves };
         grower.grow(0, items, offset, levels);
         return grower.nodes;
     }
-    let middle = split(items, levels, &mut Gathered::new()).unwrap_or(items.len() / 2);
+    let middle = split(items, levels, leaves, &mut Gathered::new()).unwrap_or(items.len() / 2);
     let (left, right) = items.split_at_mut(middle);
     let (left, right) = rayon::join(
-        || subtree(left, offset, levels - 1),
-        || subtree(right, offset + middle as u32, levels - 1),
+        || subtree(left, offset, levels - 1, leaves),
+        || subtree(right, offset + middle as u32, levels - 1, leaves),
     );
     join(&left, &right)
 }
@@ -49,12 +63,13 @@ fn subtree(items: &mut [Item], offset: u32, levels: u32) -> Vec<Branch> {
 struct Grower {
     nodes: Vec<Branch>,
     gathered: Gathered,
+    leaves: Leaves,
 }
 
 impl Grower {
     /// Write the node over `items` to its slot and everything below it to the end.
     fn grow(&mut self, slot: usize, items: &mut [Item], offset: u32, levels: u32) {
-        let Some(middle) = split(items, levels, &mut self.gathered) else {
+        let Some(middle) = split(items, levels, self.leaves, &mut self.gathered) else {
             self.nodes[slot] = Branch { first: offset, count: items.len() as u32 };
             return;
         };
@@ -82,20 +97,17 @@ fn join(left: &[Branch], right: &[Branch]) -> Vec<Branch> {
 }
 
 /// Order `items` so that two halves meet at the returned place, or `None` where they are one leaf.
-fn split(items: &mut [Item], levels: u32, gathered: &mut Gathered) -> Option<usize> {
-    if items.len() == 1 {
+fn split(items: &mut [Item], levels: u32, leaves: Leaves, gathered: &mut Gathered) -> Option<usize> {
+    let fits = items.len() <= MAX_LEAF as usize;
+    if items.len() == 1 || (fits && leaves == Leaves::Full) {
         return None;
     }
-    let fits = items.len() <= MAX_LEAF as usize;
-    let (whole, centres) = items.iter().fold((Extent::EMPTY, Extent::EMPTY), |(whole, centres), item| {
-        let centre = item.centre();
-        (whole.union(item.extent), centres.union(Extent { lo: centre, hi: centre }))
-    });
+    let centres = in_chunks(items, Extent::of_centres, Extent::union);
     if levels <= levels_of_medians(items.len()) {
         return if fits { None } else { Some(split_at_median(items, &centres)) };
     }
-    match best_plane(items, &whole, &centres, gathered) {
-        Some(plane) if !fits || plane.cost < items.len() as f64 => Some(split_at_plane(items, &plane)),
+    match best_plane(items, &centres, gathered) {
+        Some(plane) if !fits || plane.cost < items.len() as f32 => Some(split_at_plane(items, &plane)),
         Some(_) => None,
         None if fits => None,
         None => Some(split_at_median(items, &centres)),
@@ -109,7 +121,7 @@ fn levels_of_medians(count: usize) -> u32 {
 
 /// Halve by count along the longest axis of the centres.
 fn split_at_median(items: &mut [Item], centres: &Extent) -> usize {
-    let length = |axis: usize| f64::from(centres.hi[axis]) - f64::from(centres.lo[axis]);
+    let length = |axis: usize| centres.hi[axis] - centres.lo[axis];
     let axis = (1..3).fold(0, |longest, axis| if length(axis) > length(longest) { axis } else { longest });
     let middle = items.len() / 2;
     items.select_nth_unstable_by(middle, |a, b| {
@@ -123,14 +135,23 @@ struct Plane {
     bins: Bins,
     axis: usize,
     /// Items of this bin and above go right.
-    bin: usize,
-    cost: f64,
+    bin: u32,
+    cost: f32,
 }
 
 /// The cheapest plane by the surface area heuristic, if any separates the items.
-fn best_plane(items: &[Item], whole: &Extent, centres: &Extent, gathered: &mut Gathered) -> Option<Plane> {
+fn best_plane(items: &[Item], centres: &Extent, gathered: &mut Gathered) -> Option<Plane> {
     let bins = Bins::new(items.len(), centres);
-    gathered.fill(items, &bins);
+    if items.len() > 2 * CHUNK {
+        let gather = |items: &[Item]| {
+            let mut gathered = Gathered::new();
+            gathered.fill(items, &bins);
+            gathered
+        };
+        *gathered = in_chunks(items, gather, Gathered::join);
+    } else {
+        gathered.fill(items, &bins);
+    }
     let (bin, axis, hits) = (0..3)
         .filter(|&axis| bins.scale[axis] > 0.0)
         .filter_map(|axis| {
@@ -138,13 +159,13 @@ fn best_plane(items: &[Item], whole: &Extent, centres: &Extent, gathered: &mut G
             Some((bin, axis, hits))
         })
         .min_by(|a, b| a.2.total_cmp(&b.2))?;
-    let whole = whole.half_area();
-    let cost = NODE_COST + if whole > 0.0 { hits / whole } else { 0.0 };
+    let whole = gathered.extents[axis].iter().copied().reduce(Extent::union)?.half_area();
+    let cost = NODE_COST as f32 + if whole > 0.0 { hits / whole } else { 0.0 };
     Some(Plane { bins, axis, bin, cost })
 }
 
 /// The cheapest plane of one axis: its bin, and the sum of both sides' areas times their items.
-fn cheapest_of(extents: &[Extent; BINS], counts: &[u32; BINS], bins: usize) -> Option<(usize, f64)> {
+fn cheapest_of(extents: &[Extent; BINS], counts: &[u32; BINS], bins: usize) -> Option<(u32, f32)> {
     // Sweep from the right for what lies above each plane …
     let mut above = [(0.0, 0); BINS];
     let mut running = (Extent::EMPTY, 0);
@@ -153,7 +174,7 @@ fn cheapest_of(extents: &[Extent; BINS], counts: &[u32; BINS], bins: usize) -> O
         above[bin] = (running.0.half_area(), running.1);
     }
     // … and from the left for what lies below.
-    let mut best: Option<(usize, f64)> = None;
+    let mut best: Option<(u32, f32)> = None;
     let mut running = (Extent::EMPTY, 0);
     for bin in 1..bins {
         running = (running.0.union(extents[bin - 1]), running.1 + counts[bin - 1]);
@@ -161,9 +182,9 @@ fn cheapest_of(extents: &[Extent; BINS], counts: &[u32; BINS], bins: usize) -> O
         if running.1 == 0 || count == 0 {
             continue;
         }
-        let hits = running.0.half_area() * f64::from(running.1) + area * f64::from(count);
+        let hits = running.0.half_area() * running.1 as f32 + area * count as f32;
         if best.is_none_or(|best| hits < best.1) {
-            best = Some((bin, hits));
+            best = Some((bin as u32, hits));
         }
     }
     best
@@ -173,10 +194,10 @@ fn cheapest_of(extents: &[Extent; BINS], counts: &[u32; BINS], bins: usize) -> O
 fn split_at_plane(items: &mut [Item], plane: &Plane) -> usize {
     let mut middle = 0;
     for index in 0..items.len() {
-        if plane.bins.of(&items[index])[plane.axis] < plane.bin {
-            items.swap(middle, index);
-            middle += 1;
-        }
+        let is_below = plane.bins.of(&items[index])[plane.axis] < plane.bin;
+        // Without a branch, which would go wrong every other time: an item that stays above changes places with another.
+        items.swap(middle, index);
+        middle += usize::from(is_below);
     }
     middle
 }
@@ -202,9 +223,13 @@ impl Bins {
 
     /// An item's bin on each axis.
     #[inline(always)]
-    fn of(&self, item: &Item) -> [usize; 3] {
-        let [x, y, z, _] = ((item.centre() - self.origin) * self.scale).to_array();
-        [x, y, z].map(|x| (x as i32 as usize).min(self.count - 1))
+    fn of(&self, item: &Item) -> [u32; 3] {
+        /// Its ulp is 1: a small number added to it is rounded, and stands in the last bits.
+        const ROUND: f32 = (1 << 23) as f32;
+        let last = (self.count - 1) as f32;
+        let bin = (item.centre() - self.origin) * self.scale - Vec4::splat(0.5);
+        let [x, y, z, _] = (bin.max(Vec4::ZERO).min(Vec4::splat(last)) + Vec4::splat(ROUND)).to_array();
+        [x, y, z].map(|x| x.to_bits() % BINS as u32)
     }
 }
 
@@ -226,12 +251,35 @@ impl Gathered {
         }
         for item in items {
             for (axis, bin) in bins.of(item).into_iter().enumerate() {
-                let extent = &mut self.extents[axis][bin];
+                let extent = &mut self.extents[axis][bin as usize];
                 *extent = extent.union(item.extent);
-                self.counts[axis][bin] += 1;
+                self.counts[axis][bin as usize] += 1;
             }
         }
     }
+
+    /// What both have gathered in the same bins.
+    fn join(mut self, other: Self) -> Self {
+        for axis in 0..3 {
+            for bin in 0..BINS {
+                self.extents[axis][bin] = self.extents[axis][bin].union(other.extents[axis][bin]);
+                self.counts[axis][bin] += other.counts[axis][bin];
+            }
+        }
+        self
+    }
+}
+
+/// What is found among all items, which many threads look at where they are many. The order must not matter.
+fn in_chunks<T: Send>(
+    items: &[Item],
+    find: impl Fn(&[Item]) -> T + Sync + Send,
+    join: impl Fn(T, T) -> T + Sync + Send,
+) -> T {
+    if items.len() <= 2 * CHUNK {
+        return find(items);
+    }
+    items.par_chunks(CHUNK).map(&find).reduce_with(join).unwrap_or_else(|| find(items))
 }
 
 /// A triangle as the builder sees it.
@@ -245,8 +293,9 @@ impl Item {
     /// Added to an index, so that its bits are no subnormal number, with which processors take their time.
     const NORMAL: u32 = 1 << 30;
 
-    fn new(triangle: &Triangle, index: u32) -> Self {
-        let [a, b, c] = [triangle.v0, triangle.v1, triangle.v2].map(|[x, y, z]| Vec4::new(x, y, z, 0.0));
+    fn new(triangle: &Triangle, scale: f32, index: u32) -> Self {
+        let corner = |[x, y, z]: [f32; 3]| Vec4::new(x, y, z, 0.0) * scale;
+        let [a, b, c] = [triangle.v0, triangle.v1, triangle.v2].map(corner);
         let lo = a.min(b).min(c);
         let tag = f32::from_bits(index + Self::NORMAL);
         Self { extent: Extent { lo: Vec4::new(lo.x, lo.y, lo.z, tag), hi: a.max(b).max(c) } }
@@ -256,14 +305,14 @@ impl Item {
         self.extent.lo.w.to_bits() - Self::NORMAL
     }
 
-    /// The centre of its box. Halved first, so that the sum cannot overflow.
+    /// Twice the centre of its box.
     #[inline(always)]
     fn centre(&self) -> Vec4 {
-        self.extent.lo * 0.5 + self.extent.hi * 0.5
+        self.extent.lo + self.extent.hi
     }
 }
 
-/// A box in three of four lanes.
+/// A box in three of four lanes, at the scale at which coordinates are in [−1, 1].
 #[derive(Debug, Clone, Copy)]
 struct Extent {
     lo: Vec4,
@@ -278,9 +327,18 @@ impl Extent {
         Self { lo: self.lo.min(other.lo), hi: self.hi.max(other.hi) }
     }
 
-    /// Half the surface area, in f64: it overflows f32 long before coordinates do. 0 where empty.
-    fn half_area(&self) -> f64 {
-        let size = self.hi.as_dvec4() - self.lo.as_dvec4();
+    /// Of twice the items' centres.
+    fn of_centres(items: &[Item]) -> Self {
+        items
+            .iter()
+            .map(Item::centre)
+            .fold(Self::EMPTY, |all, centre| all.union(Self { lo: centre, hi: centre }))
+    }
+
+    /// Half the surface area. 0 where empty.
+    #[inline(always)]
+    fn half_area(&self) -> f32 {
+        let size = self.hi - self.lo;
         if size.x < 0.0 { 0.0 } else { size.x * size.y + size.y * size.z + size.z * size.x }
     }
 }

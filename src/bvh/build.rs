@@ -2,8 +2,9 @@
 
 use thiserror::Error;
 
-use super::tree::Tree;
-use super::{binned, encode, reinsertion};
+use super::binned::{self, Leaves};
+use super::tree::{Size, Tree};
+use super::{encode, reinsertion};
 use crate::layout::constants::MAX_BVH_DEPTH;
 use crate::layout::{Node, Triangle};
 
@@ -53,18 +54,27 @@ pub fn build(triangles: &[Triangle], preset: Preset) -> Result<Bvh, BvhError> {
     match triangles.len() {
         0 => Err(BvhError::Empty),
         count if count > MAX_TRIANGLES => Err(BvhError::TooMany(count)),
-        _ => Ok(encode::encode(triangles, choose(triangles, preset))),
+        _ => {
+            let (tree, sizes) = choose(triangles, preset);
+            Ok(encode::encode(triangles, &tree, &sizes))
+        }
     }
 }
 
-/// The preset's tree, unless it is too deep.
-fn choose(triangles: &[Triangle], preset: Preset) -> Tree {
-    let binned = binned::build(triangles);
+/// The preset's tree, unless it is too deep, and its sizes.
+fn choose(triangles: &[Triangle], preset: Preset) -> (Tree, Vec<Size>) {
+    let measured = |tree: Tree| {
+        let sizes = tree.sizes();
+        (tree, sizes)
+    };
     match preset {
-        Preset::Fast => binned,
-        Preset::Best => Some(reinsertion::improve(triangles, &binned))
-            .filter(|tree| tree.depth() <= MAX_BVH_DEPTH)
-            .unwrap_or(binned),
+        Preset::Fast => measured(binned::build(triangles, Leaves::Full)),
+        Preset::Best => {
+            let binned = binned::build(triangles, Leaves::Cheapest);
+            Some(measured(reinsertion::improve(triangles, &binned)))
+                .filter(|(_, sizes)| sizes[0].depth <= MAX_BVH_DEPTH)
+                .unwrap_or_else(|| measured(binned))
+        }
     }
 }
 

@@ -65,21 +65,20 @@ struct Choice {
 /// The choices for every binary node.
 pub struct Collapse<'a> {
     nodes: &'a [Node],
-    leaves: LeafRule,
     choices: Vec<Choice>,
 }
 
+/// Subtrees of fewer nodes are chosen for by one thread.
+const PARALLEL: usize = 4096;
+
 impl<'a> Collapse<'a> {
-    /// Choose for a tree, each of whose leaves is within the rule.
+    /// Choose for a tree that stands depth first, each of whose leaves is within the rule.
     #[must_use]
     pub fn new(nodes: &'a [Node], leaves: LeafRule) -> Self {
         let none = Choice { costs: [0.0; WIDTH - 1], splits: [0; WIDTH], is_leaf: false, first: 0, count: 0 };
-        let mut collapse = Self { nodes, leaves, choices: vec![none; nodes.len()] };
-        // A node stands before what is below it.
-        for index in (0..nodes.len()).rev() {
-            collapse.choices[index] = collapse.choose(index as u32);
-        }
-        collapse
+        let mut choices = vec![none; nodes.len()];
+        Chooser { nodes, leaves }.fill(0, &mut choices);
+        Self { nodes, choices }
     }
 
     /// The children of the wide node that stands for a binary one, and how many there are.
@@ -97,7 +96,7 @@ impl<'a> Collapse<'a> {
     /// Give `lanes` to a node's children.
     fn split(&self, node: u32, lanes: usize, found: &mut dyn FnMut(Part)) {
         let left = usize::from(self.choices[node as usize].splits[lanes - 1]);
-        let [a, b] = self.subtrees(node);
+        let [a, b] = subtrees(&self.nodes[node as usize], |index| &self.choices[index as usize]);
         self.spend(&a, left, found);
         self.spend(&b, lanes - left, found);
     }
@@ -114,25 +113,57 @@ impl<'a> Collapse<'a> {
             found(Part { lo, hi, inner: (!choice.is_leaf).then_some(node), first, count });
         }
     }
+}
 
-    fn subtrees(&self, node: u32) -> [Subtree; 2] {
-        let node = &self.nodes[node as usize];
-        let subtree = |lo, hi, first: u32, count: u32| {
-            if count > 0 {
-                return Subtree { lo, hi, node: None, first, count };
+/// A node's children, by the choices for those that are nodes.
+fn subtrees<'c>(node: &Node, choice: impl Fn(u32) -> &'c Choice) -> [Subtree; 2] {
+    let subtree = |lo, hi, first: u32, count: u32| {
+        if count > 0 {
+            return Subtree { lo, hi, node: None, first, count };
+        }
+        let below = choice(first);
+        Subtree { lo, hi, node: Some(first), first: below.first, count: below.count }
+    };
+    [
+        subtree(node.a_lo, node.a_hi, node.a_first, node.a_count),
+        subtree(node.b_lo, node.b_hi, node.b_first, node.b_count),
+    ]
+}
+
+/// Finds the choices, from the leaves up.
+#[derive(Clone, Copy)]
+struct Chooser<'a> {
+    nodes: &'a [Node],
+    leaves: LeafRule,
+}
+
+impl Chooser<'_> {
+    /// Choose for the subtree of a node, which stands in a row from there on.
+    fn fill(self, node: usize, choices: &mut [Choice]) {
+        if choices.len() < PARALLEL {
+            for index in (0..choices.len()).rev() {
+                let (before, below) = choices.split_at_mut(index + 1);
+                before[index] = self.choose(node + index, below);
             }
-            let below = &self.choices[first as usize];
-            Subtree { lo, hi, node: Some(first), first: below.first, count: below.count }
-        };
-        [
-            subtree(node.a_lo, node.a_hi, node.a_first, node.a_count),
-            subtree(node.b_lo, node.b_hi, node.b_first, node.b_count),
-        ]
+            return;
+        }
+        let Node { b_first, b_count, .. } = self.nodes[node];
+        let second = if b_count == 0 { b_first as usize } else { node + choices.len() };
+        let (own, below) = choices.split_at_mut(1);
+        let (left, right) = below.split_at_mut(second - node - 1);
+        rayon::join(|| self.fill(node + 1, left), || self.fill(second, right));
+        own[0] = self.choose(node, below);
     }
 
-    fn choose(&self, node: u32) -> Choice {
-        let [a, b] = self.subtrees(node);
-        let (x, y) = (self.costs(&a), self.costs(&b));
+    /// The choice for a node; `below` are those for all nodes that follow.
+    fn choose(self, node: usize, below: &[Choice]) -> Choice {
+        let choice = |index: u32| &below[index as usize - node - 1];
+        let [a, b] = subtrees(&self.nodes[node], choice);
+        let costs = |part: &Subtree| match part.node {
+            Some(node) => choice(node).costs,
+            None => [part.aabb().half_area() as f32 * (self.leaves.cost)(part.count); WIDTH - 1],
+        };
+        let (x, y) = (costs(&a), costs(&b));
         // The cheapest split of so many lanes.
         let split = |lanes: usize| {
             (1..lanes)
@@ -156,12 +187,5 @@ impl<'a> Collapse<'a> {
             }
         }
         Choice { costs, splits, is_leaf, first, count }
-    }
-
-    fn costs(&self, part: &Subtree) -> [f32; WIDTH - 1] {
-        match part.node {
-            Some(node) => self.choices[node as usize].costs,
-            None => [part.aabb().half_area() as f32 * (self.leaves.cost)(part.count); WIDTH - 1],
-        }
     }
 }

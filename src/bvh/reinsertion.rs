@@ -10,7 +10,7 @@ use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::node::Bvh2Node;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 
-use super::aabb::Aabb;
+use super::aabb::{Aabb, unit_scale};
 use super::tree::{Branch, Tree};
 use crate::layout::Triangle;
 
@@ -49,15 +49,4 @@ fn nodes(triangles: &[Triangle], tree: &Tree) -> Vec<Bvh2Node> {
         nodes[index] = Bvh2Node::new(aabb, branch.count, branch.first);
     }
     nodes
-}
-
-/// The power of two that brings every coordinate into [−1, 1]: `obvhs` computes areas in f32 and sorts
-/// their differences, which must not overflow to NaN.
-fn unit_scale(triangles: &[Triangle]) -> f32 {
-    let Aabb { lo, hi } =
-        triangles.iter().fold(Aabb::EMPTY, |aabb, triangle| aabb.union(&Aabb::of(triangle)));
-    let largest = lo.into_iter().chain(hi).fold(f32::MIN_POSITIVE, |largest, x| largest.max(x.abs()));
-    // The exponent is in −126..=127, so that the scale's is in −127..=126: within f32, subnormals included.
-    let exponent = (largest.to_bits() >> 23) as i32 - 127;
-    2.0_f32.powi(-exponent - 1)
 }

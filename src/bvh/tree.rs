@@ -6,7 +6,7 @@ pub(super) struct Branch {
     /// The children are nodes `first` and `first + 1` where `count` is 0; else the leaf's first place in
     /// [`Tree::order`].
     pub(super) first: u32,
-    /// Triangles of a leaf; 0 for an inner node.
+    /// Triangles of a leaf; 0 for an branches node.
     pub(super) count: u32,
 }
 
@@ -17,19 +17,44 @@ pub(super) struct Tree {
     pub(super) order: Vec<u32>,
 }
 
+/// What lies below a branch, itself included.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Size {
+    /// Nodes with children.
+    pub(super) nodes: u32,
+    /// Triangles.
+    pub(super) triangles: u32,
+    /// Nodes with children on the longest path down.
+    pub(super) depth: u32,
+}
+
 impl Tree {
-    /// Nodes with children on the longest path from the root. Counts without recursion, since
-    /// reinsertion may return a tree of any depth.
-    pub(super) fn depth(&self) -> u32 {
-        let mut deepest = 0;
-        let mut stack = vec![(0, 1)];
-        while let Some((index, depth)) = stack.pop() {
+    /// The size of each branch. Without recursion, since reinsertion may return a tree of any depth.
+    pub(super) fn sizes(&self) -> Vec<Size> {
+        let mut sizes = vec![Size { nodes: 0, triangles: 0, depth: 0 }; self.nodes.len()];
+        // Depth first, each before those below it.
+        let mut order = Vec::with_capacity(self.nodes.len());
+        let mut stack = vec![0];
+        while let Some(index) = stack.pop() {
+            order.push(index);
             let Branch { first, count } = self.nodes[index as usize];
             if count == 0 {
-                deepest = deepest.max(depth);
-                stack.extend([(first, depth + 1), (first + 1, depth + 1)]);
+                stack.extend([first + 1, first]);
             }
         }
-        deepest
+        for index in order.into_iter().rev() {
+            let Branch { first, count } = self.nodes[index as usize];
+            sizes[index as usize] = if count > 0 {
+                Size { nodes: 0, triangles: count, depth: 0 }
+            } else {
+                let (a, b) = (sizes[first as usize], sizes[first as usize + 1]);
+                Size {
+                    nodes: 1 + a.nodes + b.nodes,
+                    triangles: a.triangles + b.triangles,
+                    depth: 1 + a.depth.max(b.depth),
+                }
+            };
+        }
+        sizes
     }
 }

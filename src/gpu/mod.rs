@@ -52,7 +52,7 @@ pub use error::GpuError;
 pub use exposure::{Exposure, Film, Watch};
 pub use float_controls::{FloatControls, Promises};
 pub use portions::Portions;
-pub use probe::Prober;
+pub use probe::{Prober, Records};
 pub use render::{GpuRenderer, InvocationMemory};
 pub use rolling::Rolling;
 pub use shared::SharedDevice;

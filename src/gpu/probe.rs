@@ -12,9 +12,11 @@
 //! reads its inputs there and overwrites them with its results.
 
 use std::collections::HashMap;
+use std::time::{Duration, Instant};
 
 use super::assemble::Source;
 use super::buffers::SceneBuffers;
+use super::clock::Clock;
 use super::context::Context;
 use super::pipeline::Compiled;
 use super::{AdapterReport, GpuError, GpuOptions, Variant, pipeline};
@@ -33,6 +35,16 @@ pub struct Prober {
     scene: SceneBuffers,
     /// By file, entry point and variant.
     pipelines: HashMap<(String, String, Variant), Compiled>,
+    clock: Option<Clock>,
+}
+
+/// Records on an adapter.
+pub struct Records {
+    buffer: wgpu::Buffer,
+    group: wgpu::BindGroup,
+    stride: u32,
+    count: u32,
+    bytes: u64,
 }
 
 impl Prober {
@@ -49,7 +61,8 @@ impl Prober {
         let context = Context::new(options)?;
         let buffers = SceneBuffers::new(&context, scene)?;
         buffers.set_view(&context, view);
-        Ok(Self { context, sources, scene: buffers, pipelines: HashMap::new() })
+        let clock = Clock::new(&context)?;
+        Ok(Self { context, sources, scene: buffers, pipelines: HashMap::new(), clock })
     }
 
     /// The adapter that runs.
@@ -88,36 +101,87 @@ impl Prober {
         stride: usize,
         records: &mut [u32],
     ) -> Result<(), GpuError> {
-        let compiled = self.pipeline((root, entry), variant)?;
+        let loaded = self.load(stride, records)?;
+        self.dispatch(&loaded, (root, entry), variant)?;
+        self.read(&loaded, records)
+    }
+
+    /// Put records of `stride` words on the adapter, to be run there once or more.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`], [`GpuError::OutOfMemory`], [`GpuError::DeviceLost`].
+    pub fn load(&self, stride: usize, records: &[u32]) -> Result<Records, GpuError> {
         let context = &self.context;
-        let size = size_of_val(records) as u64;
+        let bytes = size_of_val(records) as u64;
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
-        let buffer = context.buffer("the records", HEAD + size.max(4), usage)?;
+        let buffer = context.buffer("the records", HEAD + bytes.max(4), usage)?;
         context.queue.write_buffer(&buffer, HEAD, bytemuck::cast_slice(records));
-        let group = self.scene.bind(context, &buffer);
         let stride = stride.max(1);
-        let count = (records.len() / stride) as u32;
-        for first in (0..count).step_by(DISPATCH as usize) {
-            let end = count.min(first + DISPATCH);
-            let head = [first, end, stride as u32, 0];
-            context.queue.write_buffer(&buffer, 0, bytemuck::cast_slice(&head));
+        Ok(Records {
+            group: self.scene.bind(context, &buffer),
+            buffer,
+            stride: stride as u32,
+            count: (records.len() / stride) as u32,
+            bytes,
+        })
+    }
+
+    /// Run an entry point over records, and tell how long the adapter took: by its own clock, or by the host's where it has
+    /// none.
+    ///
+    /// # Errors
+    /// [`GpuError::Shader`], [`GpuError::NoF64`], [`GpuError::Refused`], [`GpuError::DeviceLost`].
+    pub fn dispatch(
+        &mut self,
+        records: &Records,
+        entry: (&str, &str),
+        variant: &Variant,
+    ) -> Result<Duration, GpuError> {
+        let compiled = self.pipeline(entry, variant)?;
+        let context = &self.context;
+        if let Some(clock) = &self.clock {
+            clock.reset();
+        }
+        let Records { buffer, group, stride, count, .. } = records;
+        let started = Instant::now();
+        for first in (0..*count).step_by(DISPATCH as usize) {
+            let end = (*count).min(first + DISPATCH);
+            let head = [first, end, *stride, 0];
+            context.queue.write_buffer(buffer, 0, bytemuck::cast_slice(&head));
             let mut encoder = context.encoder();
             {
-                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+                let timestamp_writes = match &self.clock {
+                    Some(clock) => Some(clock.next_pass(context)?),
+                    None => None,
+                };
+                let descriptor = wgpu::ComputePassDescriptor { label: Some("probe"), timestamp_writes };
+                let mut pass = encoder.begin_compute_pass(&descriptor);
                 pass.set_pipeline(&compiled.pipeline);
-                pass.set_bind_group(0, &group, &[]);
+                pass.set_bind_group(0, group, &[]);
                 pass.dispatch_workgroups((end - first).div_ceil(PROBE_GROUP), 1, 1);
             }
             context.submit(Some(encoder.finish()));
             context.wait()?;
         }
+        match &self.clock {
+            Some(clock) => clock.elapsed(context),
+            None => Ok(started.elapsed()),
+        }
+    }
+
+    /// Read records back.
+    ///
+    /// # Errors
+    /// [`GpuError::OutOfMemory`], [`GpuError::DeviceLost`].
+    pub fn read(&self, from: &Records, records: &mut [u32]) -> Result<(), GpuError> {
         let mut at = 0;
-        context.read(&buffer, HEAD..HEAD + size, size_of::<u32>() as u64, |bytes| {
+        self.context.read(&from.buffer, HEAD..HEAD + from.bytes, size_of::<u32>() as u64, |bytes| {
             let words: &[u32] = bytemuck::cast_slice(bytes);
             records[at..at + words.len()].copy_from_slice(words);
             at += words.len();
         })
     }
+
     /// The pipeline of an entry point, compiled when it is first asked for.
     fn pipeline(&mut self, (root, entry): (&str, &str), variant: &Variant) -> Result<Compiled, GpuError> {
         let key = (root.to_owned(), entry.to_owned(), *variant);

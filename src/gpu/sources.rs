@@ -29,6 +29,7 @@ pub static SOURCES: &[Source<'static>] = sources! {
     "probe_plain"
     "probe_rays"
     "probe_scene"
+    "rays"
     "real"
     "record"
     "records"

@@ -51,7 +51,7 @@ fn the_rays_of_a_file_are_traced_and_answered() {
     let down = |x: f32, z: f32| [x, 2.0, z, 0.0, 0.0, -1.0, 0.0, 9.0];
     fs::write(folder.path().join("a.rays"), rays(&[down(0.5, -0.5), down(-0.5, 0.5), down(5.0, 0.0)]))
         .expect("a file");
-    let line = "bench --rays square.obj --ray-file a.rays --rounds 6 --json --dump out";
+    let line = "bench --rays square.obj --ray-file a.rays --backend cpu --rounds 6 --json --dump out";
     let run = snellius(folder.path(), line);
     assert_eq!(run.code, 0, "{}", run.stderr);
     let json = run.json();
@@ -64,7 +64,8 @@ fn the_rays_of_a_file_are_traced_and_answered() {
     let hits = fs::read(folder.path().join("out/a.hits")).expect("answers");
     let two = 2.0_f32.to_bits();
     assert_eq!(hits, [3, two, 0, two, 1, 0, u32::MAX].map(u32::to_le_bytes).concat());
-    let any = snellius(folder.path(), "bench --rays square.obj --ray-file a.rays --any --rounds 6");
+    let any =
+        snellius(folder.path(), "bench --rays square.obj --ray-file a.rays --any --rounds 6 --backend cpu");
     assert!(any.text().contains("| a.rays | cpu | 1 | coherent |"), "{}", any.text());
 }
 

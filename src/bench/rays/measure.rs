@@ -1,13 +1,15 @@
 //! How fast a set of rays is traced, once every answer is right.
 
+use std::borrow::Cow;
 use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::{RayAnswer, RayRecord, RayStage};
+use super::{RayAdapter, RayAnswer, RayRecord, RayStage};
 use crate::bench::{BenchError, median, take_turns};
 use crate::cpu::{Cast, thread_pool};
+use crate::gpu::Records;
 use crate::kernel::bvh::{Hit, intersect, make_ray, occluded};
 use crate::kernel::{Real, Vec3};
 use crate::layout::constants::NONE;
@@ -42,9 +44,9 @@ pub enum Mode {
 pub struct RayRun {
     /// P, R, D, S, or the file that the rays came from.
     pub set: String,
-    /// `cpu`.
-    pub device: &'static str,
-    /// Threads.
+    /// `cpu`, or the adapter's name.
+    pub device: String,
+    /// Threads; 0 for an adapter, which has its own.
     pub threads: usize,
     /// How rays are handed over.
     pub mode: Mode,
@@ -65,13 +67,14 @@ pub struct Measured {
     pub faults: Vec<String>,
 }
 
-/// Time a set of rays, with one thread and with all, single and coherent, in turn; each side after its answers were held
-/// against the scalar kernel's.
+/// Time a set of rays, with one thread and with all, single and coherent, and on adapters, in turn; each side after its
+/// answers were held against the scalar kernel's.
 ///
 /// # Errors
-/// [`BenchError::Cpu`].
+/// [`BenchError::Cpu`], [`BenchError::Gpu`].
 pub fn measure(
     stage: &RayStage,
+    adapters: &mut [RayAdapter],
     set: &str,
     rays: &[RayRecord],
     query: Query,
@@ -79,34 +82,42 @@ pub fn measure(
 ) -> Result<Measured, BenchError> {
     let answers = judge(stage, rays, query);
     let pools = [thread_pool(1)?, thread_pool(0)?];
+    let pools = &pools[..if pools[1].current_num_threads() == 1 { 1 } else { 2 }];
     let mut sides = Vec::new();
-    let mut faults = Vec::new();
     for mode in [Mode::Single, Mode::Coherent] {
-        for pool in &pools[..if pools[1].current_num_threads() == 1 { 1 } else { 2 }] {
-            let mut side = Side { stage, rays, query, mode, pool, found: vec![RayAnswer::MISS; rays.len()] };
-            side.trace();
-            match differing(&side.found, &answers) {
-                None => sides.push(side),
-                Some(ray) => faults.push(format!(
-                    "{set}, {mode:?}, {} threads: ray {ray} is {:?}, by the scalar kernel {:?}",
-                    pool.current_num_threads(),
-                    side.found[ray],
-                    answers[ray]
-                )),
-            }
+        let host = |pool| Host { stage, rays, query, mode, pool, found: vec![RayAnswer::MISS; rays.len()] };
+        sides.extend(pools.iter().map(|pool| Side::Cpu(host(pool))));
+    }
+    for adapter in adapters {
+        let records = adapter.load(rays)?;
+        sides.push(Side::Gpu { adapter, records, query });
+    }
+    let mut faults = Vec::new();
+    let mut right = Vec::new();
+    for mut side in sides {
+        side.trace()?;
+        let found = side.answers(rays.len())?;
+        match differing(&found, &answers) {
+            None => right.push(side),
+            Some(ray) => faults.push(format!(
+                "{set}, {}: ray {ray} is {:?}, by the scalar kernel {:?}",
+                side.name(),
+                found[ray],
+                answers[ray]
+            )),
         }
     }
-    let times = take_turns(rounds, sides.len(), |side| Ok::<_, BenchError>(sides[side].trace()))?;
+    let times = take_turns(rounds, right.len(), |side| right[side].trace())?;
     let hits = answers.iter().filter(|answer| answer.is_hit()).count();
     let run = |(side, times): (&Side<'_>, &Vec<Duration>)| RayRun {
         set: set.to_owned(),
-        device: "cpu",
-        threads: side.pool.current_num_threads(),
-        mode: side.mode,
+        device: side.device().to_owned(),
+        threads: side.threads(),
+        mode: side.mode(),
         mrays_per_s: rays.len() as f64 / median(times).as_secs_f64().max(f64::MIN_POSITIVE) / 1e6,
         hits,
     };
-    Ok(Measured { runs: sides.iter().zip(&times).map(run).collect(), answers, faults })
+    Ok(Measured { runs: right.iter().zip(&times).map(run).collect(), answers, faults })
 }
 
 /// The scalar kernel's answers.
@@ -137,7 +148,58 @@ fn differing(found: &[RayAnswer], expected: &[RayAnswer]) -> Option<usize> {
 }
 
 /// One way to trace a set.
-struct Side<'a> {
+enum Side<'a> {
+    Cpu(Host<'a>),
+    Gpu { adapter: &'a mut RayAdapter, records: Records, query: Query },
+}
+
+impl Side<'_> {
+    fn trace(&mut self) -> Result<Duration, BenchError> {
+        match self {
+            Self::Cpu(host) => Ok(host.trace()),
+            Self::Gpu { adapter, records, query } => adapter.trace(records, *query),
+        }
+    }
+
+    /// What the last trace of `count` rays found.
+    fn answers(&self, count: usize) -> Result<Cow<'_, [RayAnswer]>, BenchError> {
+        match self {
+            Self::Cpu(host) => Ok(Cow::Borrowed(&host.found)),
+            Self::Gpu { adapter, records, .. } => Ok(Cow::Owned(adapter.answers(records, count)?)),
+        }
+    }
+
+    fn device(&self) -> &str {
+        match self {
+            Self::Cpu(_) => "cpu",
+            Self::Gpu { adapter, .. } => adapter.name(),
+        }
+    }
+
+    fn threads(&self) -> usize {
+        match self {
+            Self::Cpu(host) => host.pool.current_num_threads(),
+            Self::Gpu { .. } => 0,
+        }
+    }
+
+    fn mode(&self) -> Mode {
+        match self {
+            Self::Cpu(host) => host.mode,
+            Self::Gpu { .. } => Mode::Single,
+        }
+    }
+
+    fn name(&self) -> String {
+        match self {
+            Self::Cpu(_) => format!("{:?}, {} threads", self.mode(), self.threads()),
+            Self::Gpu { .. } => self.device().to_owned(),
+        }
+    }
+}
+
+/// The CPU with some threads.
+struct Host<'a> {
     stage: &'a RayStage,
     rays: &'a [RayRecord],
     query: Query,
@@ -146,7 +208,7 @@ struct Side<'a> {
     found: Vec<RayAnswer>,
 }
 
-impl Side<'_> {
+impl Host<'_> {
     fn trace(&mut self) -> Duration {
         let Self { stage, rays, query, mode, pool, found } = self;
         let chunks = || {
@@ -217,7 +279,8 @@ mod tests {
         let hits = sets.primary.len() - 1;
         assert_eq!((sets.primary.len(), sets.shadow.len()), (1024, sets.diffuse.len()));
         for (letter, rays, query) in sets.by_letter() {
-            let Measured { runs, answers, faults } = measure(&stage, letter, rays, query, 1).unwrap();
+            let Measured { runs, answers, faults } =
+                measure(&stage, &mut [], letter, rays, query, 1).unwrap();
             assert_eq!(faults, Vec::<String>::new());
             let found = answers.iter().filter(|answer| answer.is_hit()).count();
             assert!((1..hits).contains(&found), "{letter}: {found}");

@@ -4,12 +4,14 @@
 //! after holding every answer against the scalar kernel. Rays and answers can be written and read ([`read_rays`]), so that
 //! any other engine can run the very same ones.
 
+mod adapter;
 mod measure;
 mod record;
 mod sets;
 mod stage;
 
+pub use adapter::RayAdapter;
 pub use measure::{Measured, Mode, Query, RayRun, measure};
-pub use record::{RayAnswer, RayError, RayRecord, read_rays, write_answers, write_rays};
+pub use record::{RayAnswer, RayError, RayRecord, read_answers, read_rays, write_answers, write_rays};
 pub use sets::{RaySets, SIDE};
 pub use stage::{Pinhole, RayStage};

@@ -59,16 +59,18 @@ pub enum RayError {
         error: io::Error,
     },
     /// The file is not as long as its count says.
-    #[error("{} holds {bytes} bytes, but a count and {rays} rays take {expected}: a file of rays is a u32 count, then 8 f32 a ray: origin, tmin, direction, tmax", path.display())]
+    #[error("{} holds {bytes} bytes, but a count and {count} records take {expected}: {format}", path.display())]
     Length {
         /// The file.
         path: PathBuf,
         /// Its length.
         bytes: usize,
         /// Its count.
-        rays: u32,
+        count: u32,
         /// How long it should be.
         expected: usize,
+        /// What such a file is.
+        format: &'static str,
     },
     /// A ray does not begin at its origin.
     #[error("ray {ray} of {} begins at tmin = {tmin}: rays are traced from 0; move its origin instead", path.display())]
@@ -93,23 +95,41 @@ pub enum RayError {
 /// # Errors
 /// [`RayError::Io`], [`RayError::Length`], [`RayError::Start`].
 pub fn read_rays(path: &Path) -> Result<Vec<RayRecord>, RayError> {
-    let bytes = fs::read(path).map_err(|error| RayError::Io { what: "read", path: path.into(), error })?;
-    let (head, body) = bytes.split_first_chunk::<4>().unwrap_or((&[0; 4], &[]));
-    let count = u32::from_le_bytes(*head);
-    let expected = 4 + count as usize * size_of::<RayRecord>();
-    if bytes.len() != expected {
-        return Err(RayError::Length { path: path.into(), bytes: bytes.len(), rays: count, expected });
-    }
-    let word = |bytes: &[u8]| f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]);
-    let record = |bytes: &[u8]| {
-        let w: [f32; 8] = std::array::from_fn(|i| word(&bytes[4 * i..]));
-        RayRecord { origin: [w[0], w[1], w[2]], tmin: w[3], direction: [w[4], w[5], w[6]], tmax: w[7] }
+    let format = "a file of rays is a u32 count, then 8 f32 a ray: origin, tmin, direction, tmax";
+    let record = |[a, b, c, tmin, d, e, f, tmax]: [u32; 8]| RayRecord {
+        origin: [a, b, c].map(f32::from_bits),
+        tmin: f32::from_bits(tmin),
+        direction: [d, e, f].map(f32::from_bits),
+        tmax: f32::from_bits(tmax),
     };
-    let rays: Vec<_> = body.chunks_exact(size_of::<RayRecord>()).map(record).collect();
+    let rays: Vec<_> = read(path, format)?.into_iter().map(record).collect();
     match rays.iter().position(|ray| ray.tmin != 0.0) {
         Some(ray) => Err(RayError::Start { path: path.into(), ray, tmin: rays[ray].tmin }),
         None => Ok(rays),
     }
+}
+
+/// Read a file of answers.
+///
+/// # Errors
+/// [`RayError::Io`], [`RayError::Length`].
+pub fn read_answers(path: &Path) -> Result<Vec<RayAnswer>, RayError> {
+    let format = "a file of hits is a u32 count, then f32 t and u32 face a ray";
+    let record = |[t, face]: [u32; 2]| RayAnswer { t: f32::from_bits(t), face };
+    Ok(read(path, format)?.into_iter().map(record).collect())
+}
+
+/// A count, then as many records of N words.
+fn read<const N: usize>(path: &Path, format: &'static str) -> Result<Vec<[u32; N]>, RayError> {
+    let bytes = fs::read(path).map_err(|error| RayError::Io { what: "read", path: path.into(), error })?;
+    let (head, body) = bytes.split_first_chunk::<4>().unwrap_or((&[0; 4], &[]));
+    let count = u32::from_le_bytes(*head);
+    let expected = 4 + count as usize * N * 4;
+    if bytes.len() != expected {
+        return Err(RayError::Length { path: path.into(), bytes: bytes.len(), count, expected, format });
+    }
+    let word = |bytes: &[u8; 4]| u32::from_le_bytes(*bytes);
+    Ok(body.as_chunks::<4>().0.as_chunks::<N>().0.iter().map(|words| words.each_ref().map(word)).collect())
 }
 
 /// Write a file of rays.
@@ -163,6 +183,7 @@ mod tests {
         write_answers(&path, &[RayAnswer { t: 1.0, face: 7 }, RayAnswer::MISS]).unwrap();
         let words = [2, 0x3f80_0000, 7, 0, u32::MAX];
         assert_eq!(fs::read(&path).unwrap(), words.map(u32::to_le_bytes).concat());
+        assert_eq!(read_answers(&path).unwrap(), [RayAnswer { t: 1.0, face: 7 }, RayAnswer::MISS]);
     }
 
     #[test]

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use bytemuck::Zeroable;
 use glam::DVec3;
+use rayon::prelude::*;
 
 use super::RayError;
 use crate::bench::BenchError;
@@ -57,7 +58,8 @@ impl RayStage {
         }
         let started = Instant::now();
         let tree = bvh::build(&triangles, preset).map_err(RayError::Bvh)?;
-        let triangles: Vec<Triangle> = tree.order.iter().map(|&index| triangles[index as usize]).collect();
+        let triangles: Vec<Triangle> =
+            tree.order.par_iter().map(|&index| triangles[index as usize]).collect();
         let wide = WideBvh::new(&tree.nodes, &triangles);
         let build = started.elapsed();
         let root = &tree.nodes[0];

@@ -30,7 +30,7 @@ const ROUNDS: u32 = 11;
 /// With --effects: each scene traced with the effects that it calls for, and with all; then each effect switched on
 /// alone in a scene that does not need it. Time is that of the trace alone.
 ///
-/// With --rays: rays against one mesh, without shading, on the CPU: primary ones (P), mirrored (R) and scattered (D) off
+/// With --rays: rays against one mesh, without shading, on the CPU and on every adapter: primary ones (P), mirrored (R) and scattered (D) off
 /// what those hit, and shadow rays (S). A rate is printed only where every hit has the bits of the scalar kernel's.
 ///
 /// With --scale: how the time of a trace grows with triangles, depth, lights, pixels, samples and threads, in scenes made
@@ -75,10 +75,10 @@ pub(super) struct BenchArgs {
     #[arg(long)]
     json: bool,
     /// Only the CPU, or only Vulkan adapters (beside all threads of the CPU, which judge them)
-    #[arg(long, value_name = "DEVICE", help_heading = "Device", conflicts_with = "mesh")]
+    #[arg(long, value_name = "DEVICE", help_heading = "Device")]
     backend: Option<Backend>,
     /// Only adapters of which this is part of the name, as `snellius devices` lists them
-    #[arg(long, value_name = "NAME", help_heading = "Device", conflicts_with = "mesh")]
+    #[arg(long, value_name = "NAME", help_heading = "Device")]
     adapter: Option<String>,
 }
 

@@ -9,10 +9,11 @@ use super::super::console::{Console, print, print_json};
 use super::super::device::cpu_name;
 use super::super::values::Point;
 use super::super::{CliError, Outcome};
-use super::BenchArgs;
+use super::{BenchArgs, adapters_of};
+use crate::bench::Target;
 use crate::bench::rays::{
-    Measured, Mode, Pinhole, Query, RayError, RayRecord, RayRun, RaySets, RayStage, SIDE, measure, read_rays,
-    write_answers, write_rays,
+    Measured, Mode, Pinhole, Query, RayAdapter, RayError, RayRecord, RayRun, RaySets, RayStage, SIDE,
+    measure, read_rays, write_answers, write_rays,
 };
 use crate::bvh::Preset;
 
@@ -76,6 +77,12 @@ pub(super) fn run(mesh: &Path, args: &BenchArgs, console: Console) -> Result<Out
     let pinhole = Pinhole { eye: eye.map(|at| at.0), target: target.map(|at| at.0), fov: *fov };
     let preset = if args.rays.preset == "fast" { Preset::Fast } else { Preset::Best };
     let stage = RayStage::load(mesh, preset, pinhole)?;
+    let mut adapters = Vec::new();
+    for target in adapters_of(args)? {
+        if let Target::Adapter(adapter) = target {
+            adapters.push(RayAdapter::new(&adapter, &stage)?);
+        }
+    }
     let mut report = RayReport {
         mesh: mesh.file_name().unwrap_or(mesh.as_os_str()).to_string_lossy().into_owned(),
         triangles: stage.triangles(),
@@ -87,7 +94,7 @@ pub(super) fn run(mesh: &Path, args: &BenchArgs, console: Console) -> Result<Out
     let mut measured = |set: &str, rays: &[RayRecord], query: Query| {
         console.detail(format!("{set}: {} rays", rays.len()));
         let Measured { runs, answers, faults: found } =
-            measure(&stage, set, rays, query, args.rounds_or_default() as usize)?;
+            measure(&stage, &mut adapters, set, rays, query, args.rounds_or_default() as usize)?;
         faults += found.len();
         found.into_iter().for_each(|fault| console.warn(fault));
         report.runs.extend(runs);
@@ -136,6 +143,7 @@ fn page(report: &RayReport, rounds: u32) -> String {
             Mode::Coherent => "coherent",
         };
         let RayRun { set, device, threads, mrays_per_s, hits, .. } = run;
+        let threads = if *threads == 0 { "–".to_owned() } else { threads.to_string() };
         text += &format!("| {set} | {device} | {threads} | {mode} | {mrays_per_s:.2} | {hits} |\n");
     }
     let RayReport { mesh, triangles, build_ms, bytes_per_triangle, .. } = report;

@@ -19,18 +19,17 @@ pub(super) struct Beam<'a, const N: usize, F> {
 
 impl<'a, const N: usize, F: Copy> Beam<'a, N, F> {
     #[inline(always)]
-    pub(super) fn new<W: Simd<WIDTH, F = F>>(w: W, packet: &'a Packet<N>, lanes: u32) -> Self {
-        let class = packet.class[lanes.trailing_zeros() as usize % N];
-        let falls = |axis: usize| class >> axis & 1 == 1;
+    pub(super) fn new<W: Simd<WIDTH, F = F>, S: Simd<N>>(
+        w: W,
+        s: S,
+        packet: &'a Packet<N>,
+        lanes: u32,
+    ) -> Self {
+        let first = lanes.trailing_zeros() as usize;
+        let falls = |axis: usize| packet.falls(first, axis);
         let ends = |values: &[f32; N]| {
-            let (mut least, mut greatest) = (f32::INFINITY, f32::NEG_INFINITY);
-            for (lane, &value) in values.iter().enumerate() {
-                if lanes >> lane & 1 == 1 {
-                    least = least.min(value);
-                    greatest = greatest.max(value);
-                }
-            }
-            (least, greatest)
+            let values = s.load(values);
+            (s.least_of(values, lanes), s.greatest_of(values, lanes))
         };
         let hi = [ends(&packet.origin_hi[0]), ends(&packet.origin_hi[1]), ends(&packet.origin_hi[2])];
         let lo = [ends(&packet.origin_lo[0]), ends(&packet.origin_lo[1]), ends(&packet.origin_lo[2])];
@@ -44,7 +43,7 @@ impl<'a, const N: usize, F: Copy> Beam<'a, N, F> {
                 Row::near(Axis::ALL[1], falls(1)),
                 Row::near(Axis::ALL[2], falls(2)),
             ],
-            axes: Axis::sheared(class >> 3),
+            axes: Axis::sheared(packet.axis(first)),
             near_origin: [w.splat(near(0)), w.splat(near(1)), w.splat(near(2))],
             far_origin: [w.splat(far(0)), w.splat(far(1)), w.splat(far(2))],
             least: [w.splat(r[0].0), w.splat(r[1].0), w.splat(r[2].0)],

@@ -17,6 +17,7 @@ mod beam;
 mod bests;
 mod layout;
 mod packet;
+mod pages;
 mod ray;
 mod simd;
 mod single;
@@ -198,7 +199,7 @@ impl Task for ClosestStream<'_> {
             let mut bests = Bests::none(&packet);
             let mut left = packet.usable();
             while left != 0 {
-                let group = packet.group(s, left);
+                let group = packet.group(left);
                 stream::closest(w, s, self.tree, &packet, group, &mut bests);
                 left &= !group;
             }
@@ -224,7 +225,7 @@ impl Task for AnyStream<'_> {
             let packet = Packet::<N>::new(s, casts, self.tree);
             let (mut left, mut bits) = (packet.usable(), 0);
             while left != 0 {
-                let group = packet.group(s, left);
+                let group = packet.group(left);
                 bits |= stream::any(w, s, self.tree, &packet, group);
                 left &= !group;
             }

@@ -33,8 +33,9 @@ pub(super) struct Packet<const N: usize> {
     pub(super) shear: Lanes<N>,
     pub(super) limit: [f32; N],
     pub(super) origin_face: [u32; N],
-    /// Which octant the direction lies in, and above that the axis that it mostly follows.
-    pub(super) class: [u32; N],
+    /// Lanes whose direction falls along each axis, and those that mostly follow y or z.
+    falls: [u32; 3],
+    mostly: [u32; 2],
     /// Lanes with a ray that a scene can make.
     usable: u32,
 }
@@ -52,7 +53,8 @@ impl<const N: usize> Packet<N> {
             shear: [[0.0; N]; 3],
             limit: [0.0; N],
             origin_face: [NONE; N],
-            class: [0; N],
+            falls: [0; 3],
+            mostly: [0; 2],
             usable: 0,
         };
         for (lane, cast) in casts.iter().enumerate().take(N) {
@@ -74,7 +76,6 @@ impl<const N: usize> Packet<N> {
         let z = reach(s, o[2], bounds[0][2], bounds[1][2]);
         let padding = s.mul(s.add(s.add(x, y), z), s.splat(SLAB_PADDING as f32));
         let a = [abs(s, d[0]), abs(s, d[1]), abs(s, d[2])];
-        let mut falls = [0; 3];
         for axis in 0..3 {
             let delta = s.add(s.mul(abs(s, o[axis]), s.splat(ORIGIN_PADDING as f32)), padding);
             s.store(s.add(o[axis], delta), &mut self.origin_hi[axis]);
@@ -83,22 +84,18 @@ impl<const N: usize> Packet<N> {
             let clamped = s.select(s.bits(s.lt(a[axis], least)), least, d[axis]);
             let reciprocal = s.div(s.splat(1.0), clamped);
             s.store(reciprocal, &mut self.reciprocal[axis]);
-            falls[axis] = s.bits(s.lt(reciprocal, s.splat(0.0)));
+            self.falls[axis] = s.bits(s.lt(reciprocal, s.splat(0.0)));
         }
         // The longest axis last, the others in cyclic order.
-        let is_y = s.bits(s.lt(a[0], a[1]));
         let is_z = s.bits(s.lt(s.greatest(a[0], a[1]), a[2]));
+        let is_y = s.bits(s.lt(a[0], a[1])) & !is_z;
+        self.mostly = [is_y, is_z];
         let first = s.select(is_z, d[0], s.select(is_y, d[2], d[1]));
         let second = s.select(is_z, d[1], s.select(is_y, d[0], d[2]));
         let longest = s.select(is_z, d[2], s.select(is_y, d[1], d[0]));
         s.store(s.div(first, longest), &mut self.shear[0]);
         s.store(s.div(second, longest), &mut self.shear[1]);
         s.store(s.div(s.splat(1.0), longest), &mut self.shear[2]);
-        for (lane, class) in self.class.iter_mut().enumerate() {
-            let bit = |bits: u32| bits >> lane & 1;
-            let axis = if bit(is_z) == 1 { 2 } else { bit(is_y) };
-            *class = bit(falls[0]) | bit(falls[1]) << 1 | bit(falls[2]) << 2 | axis << 3;
-        }
         let hi = abs(s, s.load(&self.origin_hi[0]));
         let reached = s.add(s.add(s.add(hi, a[0]), a[1]), a[2]);
         self.usable = s.bits(s.lt(reached, s.splat(MOST_REACH as f32)));
@@ -106,8 +103,23 @@ impl<const N: usize> Packet<N> {
 
     /// The rays of one octant and axis among `lanes`: those of the lowest one.
     #[inline(always)]
-    pub(super) fn group<S: Simd<N>>(&self, s: S, lanes: u32) -> u32 {
-        s.equal(&self.class, self.class[lanes.trailing_zeros() as usize % N]) & lanes
+    pub(super) fn group(&self, lanes: u32) -> u32 {
+        let first = lanes.trailing_zeros();
+        let alike = |bits: &u32| if bits >> first & 1 == 1 { *bits } else { !bits };
+        self.falls.iter().chain(&self.mostly).map(alike).fold(lanes, |group, alike| group & alike)
+    }
+
+    /// Whether a lane's direction falls along an axis.
+    #[inline(always)]
+    pub(super) fn falls(&self, lane: usize, axis: usize) -> bool {
+        self.falls[axis] >> lane & 1 == 1
+    }
+
+    /// The axis that a lane's direction mostly follows.
+    #[inline(always)]
+    pub(super) fn axis(&self, lane: usize) -> u32 {
+        let [y, z] = self.mostly.map(|bits| bits >> lane & 1);
+        y + 2 * z
     }
 
     /// One lane's ray for eight boxes or triangles.
@@ -121,7 +133,7 @@ impl<const N: usize> Packet<N> {
             pick(&self.origin_hi),
             pick(&self.origin_lo),
             pick(&self.reciprocal),
-            (self.class[lane] >> 3, pick(&self.shear)),
+            (self.axis(lane), pick(&self.shear)),
             self.origin_face[lane],
         )
     }

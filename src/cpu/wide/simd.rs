@@ -44,6 +44,10 @@ pub(super) trait Simd<const N: usize>: Copy {
     fn and(self, a: Self::M, b: Self::M) -> Self::M;
     /// Bit i is lane i's answer.
     fn bits(self, m: Self::M) -> u32;
+    /// The least of the lanes whose bit is set, +∞ of none. None of them is a NaN.
+    fn least_of(self, v: Self::F, bits: u32) -> f32;
+    /// The greatest of the lanes whose bit is set, −∞ of none. None of them is a NaN.
+    fn greatest_of(self, v: Self::F, bits: u32) -> f32;
     /// Which lanes equal `x`.
     fn equal(self, to: &[u32; N], x: u32) -> u32;
     /// Distance and child of the lanes whose bit is set, packed as [`key`](super::stack::key) does, to the front of `to`.
@@ -117,6 +121,16 @@ impl<const N: usize> Simd<N> for Portable {
     #[inline(always)]
     fn bits(self, m: [bool; N]) -> u32 {
         (0..N).fold(0, |bits, i| bits | u32::from(m[i]) << i)
+    }
+    #[inline(always)]
+    fn least_of(self, v: [f32; N], bits: u32) -> f32 {
+        let among = |i: usize| if bits >> i & 1 == 1 { v[i] } else { f32::INFINITY };
+        (0..N).fold(f32::INFINITY, |least, i| if among(i) < least { among(i) } else { least })
+    }
+    #[inline(always)]
+    fn greatest_of(self, v: [f32; N], bits: u32) -> f32 {
+        let among = |i: usize| if bits >> i & 1 == 1 { v[i] } else { f32::NEG_INFINITY };
+        (0..N).fold(f32::NEG_INFINITY, |greatest, i| if among(i) > greatest { among(i) } else { greatest })
     }
     #[inline(always)]
     fn equal(self, to: &[u32; N], x: u32) -> u32 {

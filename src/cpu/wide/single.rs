@@ -38,6 +38,7 @@ pub(super) fn closest<S: Simd<WIDTH>>(s: S, tree: &Tree, ray: &Spread<S::F>, roo
                 let node = &tree.nodes[index];
                 let (bits, entry) = ray.meet(s, node, s.splat(best.t));
                 if bits != 0 {
+                    tree.prefetch(node, bits);
                     let first = bits.trailing_zeros() as usize % WIDTH;
                     let others = bits & (bits - 1);
                     if others == 0 {

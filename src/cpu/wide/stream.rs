@@ -22,8 +22,8 @@ pub(super) fn closest<const N: usize, W: Simd<WIDTH>, S: Simd<N>>(
     lanes: u32,
     bests: &mut Bests<N>,
 ) {
-    let beam = Beam::new(w, packet, lanes);
-    let mut farthest = greatest_of(&bests.t, lanes);
+    let beam = Beam::new(w, s, packet, lanes);
+    let mut farthest = greatest_of(s, &bests.t, lanes);
     // A child waits as its node's index times [`WIDTH`], plus its lane.
     let mut stack = Stack::new();
     let (mut current, mut active) = (Tree::ROOT, lanes);
@@ -33,7 +33,7 @@ pub(super) fn closest<const N: usize, W: Simd<WIDTH>, S: Simd<N>>(
                 for lane in bits_of(active) {
                     bests.alone(w, tree, packet, lane % N, current);
                 }
-                farthest = greatest_of(&bests.t, lanes);
+                farthest = greatest_of(s, &bests.t, lanes);
             }
             Child::Node(index) => {
                 let node = &tree.nodes[index];
@@ -58,7 +58,7 @@ pub(super) fn closest<const N: usize, W: Simd<WIDTH>, S: Simd<N>>(
                         }
                     }
                 }
-                farthest = greatest_of(&bests.t, lanes);
+                farthest = greatest_of(s, &bests.t, lanes);
             }
         }
         // The next child that one of the rays enters.
@@ -85,8 +85,8 @@ pub(super) fn any<const N: usize, W: Simd<WIDTH>, S: Simd<N>>(
     packet: &Packet<N>,
     lanes: u32,
 ) -> u32 {
-    let beam = Beam::new(w, packet, lanes);
-    let farthest = greatest_of(&packet.limit, lanes);
+    let beam = Beam::new(w, s, packet, lanes);
+    let farthest = greatest_of(s, &packet.limit, lanes);
     let limits = s.load(&packet.limit);
     let mut stack = Stack::new();
     let (mut current, mut active, mut blocked) = (Tree::ROOT, lanes, 0);
@@ -141,14 +141,9 @@ fn bits_of(mut bits: u32) -> impl Iterator<Item = usize> {
     })
 }
 
-/// The greatest of the lanes' values.
+/// The greatest of the lanes' values; limits may be no numbers.
 #[inline(always)]
-fn greatest_of<const N: usize>(values: &[f32; N], lanes: u32) -> f32 {
-    let mut greatest = f32::NEG_INFINITY;
-    for (lane, &value) in values.iter().enumerate() {
-        if lanes >> lane & 1 == 1 && value > greatest {
-            greatest = value;
-        }
-    }
-    greatest
+fn greatest_of<const N: usize, S: Simd<N>>(s: S, values: &[f32; N], lanes: u32) -> f32 {
+    let values = s.load(values);
+    s.greatest_of(values, lanes & s.bits(s.le(values, values)))
 }

@@ -1,6 +1,9 @@
 //! The wide tree.
 
 use super::layout::{Child, Leaf, Node, WIDTH};
+use super::pages;
+#[cfg(target_arch = "x86_64")]
+use super::x86::prefetch;
 use crate::bvh::{Collapse, LeafRule, Part};
 use crate::layout::{self, Triangle};
 use rayon::prelude::*;
@@ -26,13 +29,21 @@ impl Tree {
 
     /// Collapse a binary tree, each of whose subtrees holds triangles that stand in a row.
     pub(super) fn new(nodes: &[layout::Node], triangles: &[Triangle]) -> Self {
-        let mut writer = Writer { collapse: Collapse::new(nodes, LEAVES), nodes: vec![], rows: vec![] };
+        let mut writer = Writer {
+            collapse: Collapse::new(nodes, LEAVES),
+            nodes: Vec::with_capacity(nodes.len() / 2),
+            rows: vec![],
+        };
         writer.node(0);
-        let Writer { nodes: wide, rows, .. } = writer;
+        let Writer { nodes: written, rows, .. } = writer;
         let leaf = |&(first, count): &(u32, u32)| Leaf::new(&triangles[first as usize..][..count as usize]);
+        let mut leaves = pages::with_capacity(rows.len());
+        rows.par_iter().map(leaf).collect_into_vec(&mut leaves);
+        let mut wide = pages::with_capacity(written.len());
+        wide.extend(written);
         Self {
             nodes: wide,
-            leaves: rows.par_iter().map(leaf).collect(),
+            leaves,
             firsts: rows.into_iter().map(|(first, _)| first).collect(),
             bounds: bounds(&nodes[0]),
         }
@@ -44,10 +55,26 @@ impl Tree {
         self.firsts[place as usize / WIDTH] + place % WIDTH as u32
     }
 
+    /// Begin to fetch the children of a node whose bit is set.
+    #[inline(always)]
+    pub(super) fn prefetch(&self, node: &Node, mut bits: u32) {
+        while bits != 0 {
+            match Child::unpack(node.children[bits.trailing_zeros() as usize % WIDTH]) {
+                Child::Node(index) => prefetch(&self.nodes[index]),
+                Child::Leaf { index, .. } => prefetch(&self.leaves[index]),
+            }
+            bits &= bits - 1;
+        }
+    }
+
     pub(super) fn bytes(&self) -> usize {
         size_of_val(&*self.nodes) + size_of_val(&*self.leaves) + size_of_val(&*self.firsts)
     }
 }
+
+/// Elsewhere the processor is left to itself.
+#[cfg(not(target_arch = "x86_64"))]
+fn prefetch<T>(_: &T) {}
 
 /// The box of both children.
 fn bounds(root: &layout::Node) -> [[f32; 3]; 2] {

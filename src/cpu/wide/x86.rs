@@ -61,6 +61,17 @@ impl Avx512 {
     }
 }
 
+/// Begin to fetch all cache lines of a value.
+#[inline(always)]
+pub(super) fn prefetch<T>(value: &T) {
+    const LINE: usize = 64;
+    let at: *const i8 = std::ptr::from_ref(value).cast();
+    for line in 0..size_of::<T>().div_ceil(LINE) {
+        // SSE, which every x86-64 has; an address is only a hint.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(at.wrapping_add(line * LINE)) };
+    }
+}
+
 /// Functions of the same name for each instruction set, from one list of intrinsics.
 macro_rules! arithmetic {
     ($n:literal: $splat:ident $load:ident $store:ident $add:ident $sub:ident $mul:ident $div:ident $least:ident $greatest:ident) => {
@@ -103,6 +114,40 @@ macro_rules! arithmetic {
     };
 }
 
+/// The least and the greatest of some lanes, by halves: eight, or twice as many.
+macro_rules! extremes {
+    ($n:literal: $halve:ident) => {
+        #[inline(always)]
+        fn least_of(self, v: Self::F, bits: u32) -> f32 {
+            let among = Simd::<$n>::select(self, bits, v, Simd::<$n>::splat(self, f32::INFINITY));
+            unsafe { $halve!(among, _mm256_min_ps, _mm_min_ps) }
+        }
+        #[inline(always)]
+        fn greatest_of(self, v: Self::F, bits: u32) -> f32 {
+            let among = Simd::<$n>::select(self, bits, v, Simd::<$n>::splat(self, f32::NEG_INFINITY));
+            unsafe { $halve!(among, _mm256_max_ps, _mm_max_ps) }
+        }
+    };
+}
+
+/// One number of eight lanes, by an operation on two vectors.
+macro_rules! of_eight {
+    ($v:expr, $eight:ident, $four:ident) => {{
+        let v = $v;
+        let v = $four(_mm256_castps256_ps128(v), _mm256_extractf128_ps::<1>(v));
+        let v = $four(v, _mm_movehl_ps(v, v));
+        _mm_cvtss_f32($four(v, _mm_shuffle_ps::<1>(v, v)))
+    }};
+}
+
+/// The same of sixteen.
+macro_rules! of_sixteen {
+    ($v:expr, $eight:ident, $four:ident) => {{
+        let v = $v;
+        of_eight!($eight(_mm512_castps512_ps256(v), _mm512_extractf32x8_ps::<1>(v)), $eight, $four)
+    }};
+}
+
 /// Comparisons into mask registers.
 macro_rules! masks {
     ($n:literal: $compare:ident $blend:ident $mask:ty) => {
@@ -139,6 +184,7 @@ impl Simd<8> for Avx2 {
 
     arithmetic!(8: _mm256_set1_ps _mm256_loadu_ps _mm256_storeu_ps _mm256_add_ps _mm256_sub_ps _mm256_mul_ps
         _mm256_div_ps _mm256_min_ps _mm256_max_ps);
+    extremes!(8: of_eight);
 
     #[inline(always)]
     fn lt(self, a: __m256, b: __m256) -> __m256 {
@@ -190,6 +236,7 @@ impl Simd<8> for Avx512 {
 
     arithmetic!(8: _mm256_set1_ps _mm256_loadu_ps _mm256_storeu_ps _mm256_add_ps _mm256_sub_ps _mm256_mul_ps
         _mm256_div_ps _mm256_min_ps _mm256_max_ps);
+    extremes!(8: of_eight);
     masks!(8: _mm256_cmp_ps_mask _mm256_mask_blend_ps __mmask8);
 
     #[inline(always)]
@@ -216,6 +263,7 @@ impl Simd<16> for Avx512 {
 
     arithmetic!(16: _mm512_set1_ps _mm512_loadu_ps _mm512_storeu_ps _mm512_add_ps _mm512_sub_ps _mm512_mul_ps
         _mm512_div_ps _mm512_min_ps _mm512_max_ps);
+    extremes!(16: of_sixteen);
     masks!(16: _mm512_cmp_ps_mask _mm512_mask_blend_ps __mmask16);
 
     #[inline(always)]

@@ -1,0 +1,78 @@
+//! A mesh on a Vulkan adapter, for rays.
+
+use std::time::Duration;
+
+use super::{Query, RayAnswer, RayRecord, RayStage};
+use crate::bench::BenchError;
+use crate::gpu::{AdapterReport, GpuOptions, Prober, Records, SOURCES, Source, Variant};
+use crate::layout::{Float, Plan, Settings};
+
+/// Words of a ray, then of its answer.
+const RAY: usize = size_of::<RayRecord>() / 4;
+const STRIDE: usize = RAY + size_of::<RayAnswer>() / 4;
+
+/// A mesh on a Vulkan adapter: one invocation a ray. In strict float where the adapter has it.
+pub struct RayAdapter {
+    prober: Prober,
+    variant: Variant,
+}
+
+impl RayAdapter {
+    /// Open an adapter and put a mesh there.
+    ///
+    /// # Errors
+    /// [`BenchError::Gpu`].
+    pub fn new(adapter: &AdapterReport, stage: &RayStage) -> Result<Self, BenchError> {
+        Self::with_sources(adapter, stage, SOURCES)
+    }
+
+    /// The same with other shader files, whose entry points `rays_nearest` and `rays_any` stand in the file `rays`.
+    ///
+    /// # Errors
+    /// [`BenchError::Gpu`].
+    pub fn with_sources(
+        adapter: &AdapterReport,
+        stage: &RayStage,
+        sources: &'static [Source<'static>],
+    ) -> Result<Self, BenchError> {
+        let options = GpuOptions { adapter: Some(adapter.name.clone()), ..GpuOptions::default() };
+        let float = if adapter.strict_float { Float::Strict } else { Float::Fast };
+        let settings = Settings { float, ..Settings::default() };
+        Ok(Self {
+            prober: Prober::new(&stage.scene, &stage.view, &options, sources)?,
+            variant: Variant::new(stage.scene.bvh_depth, &settings, &Plan::general(0)),
+        })
+    }
+
+    /// Its name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.prober.adapter().name
+    }
+
+    /// Put rays there.
+    pub(super) fn load(&self, rays: &[RayRecord]) -> Result<Records, BenchError> {
+        let mut words = vec![0; rays.len() * STRIDE];
+        for (words, ray) in words.chunks_exact_mut(STRIDE).zip(rays) {
+            words[..RAY].copy_from_slice(bytemuck::cast_slice(std::slice::from_ref(ray)));
+        }
+        Ok(self.prober.load(STRIDE, &words)?)
+    }
+
+    /// Trace them, and tell how long that took.
+    pub(super) fn trace(&mut self, records: &Records, query: Query) -> Result<Duration, BenchError> {
+        let entry = match query {
+            Query::Nearest => "rays_nearest",
+            Query::Any => "rays_any",
+        };
+        Ok(self.prober.dispatch(records, ("rays", entry), &self.variant)?)
+    }
+
+    /// What was found.
+    pub(super) fn answers(&self, records: &Records, count: usize) -> Result<Vec<RayAnswer>, BenchError> {
+        let mut words = vec![0; count * STRIDE];
+        self.prober.read(records, &mut words)?;
+        let answer = |words: &[u32]| RayAnswer { t: f32::from_bits(words[RAY]), face: words[RAY + 1] };
+        Ok(words.chunks_exact(STRIDE).map(answer).collect())
+    }
+}
