@@ -1,22 +1,29 @@
-//! What a picture costs on top of its rays: the time of a frame against that which its rays would take without shading.
+//! What a picture costs on top of its rays: the time of a frame against that of its own rays, traced again without shading.
 //!
-//! `cargo run --release --example frame_cost` renders a scene at one sample on all threads of the CPU and, in turn, traces the
-//! sets of rays that `snellius bench --rays` makes for the scene's camera: P, R and S. The *ceiling* is the sum over the
-//! kinds of the frame's rays, each at the raw rate of its set: primary rays at P's, reflected and refracted ones at R's, shadow
-//! rays at S's. The exit code is 1 if the frame takes more than `--most` times as long.
+//! `cargo run --release --example frame_cost` notes every ray that the kernel sends through the tree in a frame of one
+//! sample: primary ones (P), reflected and refracted ones (R), and shadow rays (S), of which one that crosses ice is several.
+//! Then the frame and the sets are traced in turn, each on all threads of the CPU, ray by ray. The *ceiling* is the sum over the
+//! sets of their rays at their own raw rate. The exit code is 1 if the frame takes more than `--most` times as long.
 
 use std::error::Error;
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 use clap::Parser;
-use snellius::bench::rays::{Pinhole, RaySets, RayStage, SIDE, measure};
-use snellius::bvh::Preset;
-use snellius::cpu::CpuRenderer;
-use snellius::film::{RayCounts, Renderer};
+use rayon::prelude::*;
+use snellius::cpu::{CpuRenderer, WideBvh, morton_order, thread_pool};
+use snellius::film::Renderer;
 use snellius::flatten::{flatten, view};
-use snellius::layout::Settings;
+use snellius::kernel::bvh::{Hit, Ray, far, intersect, make_ray};
+use snellius::kernel::whitted::trace_pixel;
+use snellius::kernel::{Real, Simulation, Vec3, World};
+use snellius::layout::{Aov, Effect, EffectSet, Effects, FlatScene, Intersector, Settings, Texel, View};
 use snellius::scene::Scene;
+
+/// Rays that a thread takes at a time.
+const CHUNK: usize = 4096;
 
 /// Compare the time of a frame with that of its rays alone
 #[derive(Debug, Parser)]
@@ -33,8 +40,8 @@ struct Arguments {
     /// Depth of the ray tree
     #[arg(long, default_value_t = 16)]
     depth: u32,
-    /// Times that both are measured in turn
-    #[arg(long, default_value_t = 5)]
+    /// Times that frame and rays are traced in turn
+    #[arg(long, default_value_t = 7)]
     rounds: usize,
     /// The frame may take so many times as long as its rays alone
     #[arg(long, default_value_t = 1.6)]
@@ -52,70 +59,157 @@ fn main() -> ExitCode {
     }
 }
 
-/// Millions of rays a second of P, R and S, by all threads.
-type Rates = [f64; 3];
-
 fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
     let scene = Scene::load(&arguments.scene)?;
     let flat = flatten(&scene)?.scene;
-    let settings = Settings {
-        depth: arguments.depth,
-        cutoff: scene.render.cutoff as f32,
-        samples: 1,
-        ..Settings::default()
-    };
+    let cutoff = scene.render.cutoff as f32;
+    let settings = Settings { depth: arguments.depth, cutoff, samples: 1, ..Settings::default() };
     let view = view(&scene.camera, &flat, [arguments.width, arguments.height], None, &settings);
+    let tree = WideBvh::new(&flat.nodes, &flat.triangles);
+    let effects = Effects::of(&flat, &settings).plan(&settings).effects;
+    let sets = Sets::of(&flat, &view, effects);
+    let pool = thread_pool(0)?;
     let mut renderer = CpuRenderer::new(&flat, 0)?;
-    let stage = RayStage::load(&arguments.scene, Preset::Best, Pinhole::default())?;
-    let sets = RaySets::of(&stage, SIDE);
-    let warm_up = renderer.render(&view, &settings, &())?;
-    let rays = warm_up.rays;
-    let (mut frames, mut ceilings, mut ratios, mut rates) = (vec![], vec![], vec![], vec![]);
+    let mut replay = |rays: &[Cast]| pool.install(|| trace(&flat, &view, &tree, rays));
+    // Warm up.
+    renderer.render(&view, &settings, &())?;
+    sets.all().iter().for_each(|(_, rays)| drop(replay(rays)));
+    let mut frames = Vec::new();
+    let mut times = [const { Vec::new() }; 3];
     for _ in 0..arguments.rounds.max(1) {
-        let frame = renderer.render(&view, &settings, &())?.times.trace.as_secs_f64() * 1e3;
-        let raw = raw_rates(&stage, &sets)?;
-        let ceiling = ceiling(&rays, raw);
-        frames.push(frame);
-        ceilings.push(ceiling);
-        ratios.push(frame / ceiling);
-        rates.push(raw);
-    }
-    let [p, r, s] = std::array::from_fn(|set| median(rates.iter().map(|rates| rates[set]).collect()));
-    println!("| | |\n|---|--:|");
-    println!(
-        "| rays: primary, reflected and refracted, shadow | {}, {}, {} |",
-        rays.primary,
-        rays.reflection + rays.refraction,
-        rays.shadow
-    );
-    println!("| raw rates P, R, S in Mrays/s, {} threads | {p:.2}, {r:.2}, {s:.2} |", renderer.threads());
-    println!("| the rays alone | {:.0} ms |", median(ceilings));
-    println!("| the frame | {:.0} ms |", median(frames));
-    let ratio = median(ratios);
-    println!("| ratio, median of {} | {ratio:.2} (≤ {}) |", arguments.rounds.max(1), arguments.most);
-    Ok(ratio <= arguments.most)
-}
-
-/// The better of single rays and streams.
-fn raw_rates(stage: &RayStage, sets: &RaySets) -> Result<Rates, Box<dyn Error>> {
-    let mut rates = [0.0; 3];
-    for (letter, rays, query) in sets.by_letter() {
-        let Some(set) = ["P", "R", "S"].iter().position(|set| *set == letter) else { continue };
-        let measured = measure(stage, &mut [], letter, rays, query, 1)?;
-        if let Some(fault) = measured.faults.first() {
-            return Err(fault.clone().into());
+        frames.push(renderer.render(&view, &settings, &())?.times.trace);
+        for (times, (_, rays)) in times.iter_mut().zip(sets.all()) {
+            times.push(replay(rays));
         }
-        rates[set] = measured.runs.iter().map(|run| run.mrays_per_s).fold(0.0, f64::max);
     }
-    Ok(rates)
-}
-
-/// What the rays alone would take, in milliseconds.
-fn ceiling(rays: &RayCounts, [p, r, s]: Rates) -> f64 {
-    (rays.primary as f64 / p + (rays.reflection + rays.refraction) as f64 / r + rays.shadow as f64 / s) / 1e3
+    let ratio = |round: usize| {
+        let rays: Duration = times.iter().map(|times| times[round]).sum();
+        frames[round].as_secs_f64() / rays.as_secs_f64()
+    };
+    let ratio = median((0..frames.len()).map(ratio).collect());
+    println!("| {}, {} threads | rays | ms | Mrays/s |", arguments.scene.display(), renderer.threads());
+    println!("|---|--:|--:|--:|");
+    let in_ms = |times: &[Duration]| median(times.iter().map(|time| time.as_secs_f64() * 1e3).collect());
+    for (times, (name, rays)) in times.iter().zip(sets.all()) {
+        let ms = in_ms(times);
+        println!("| {name} | {} | {ms:.0} | {:.2} |", rays.len(), rays.len() as f64 / ms / 1e3);
+    }
+    let whole: usize = sets.all().iter().map(|(_, rays)| rays.len()).sum();
+    println!("| the frame | {whole} | {:.0} | |", in_ms(&frames));
+    println!("\nratio, median of {}: {ratio:.2} (≤ {})", frames.len(), arguments.most);
+    Ok(ratio <= arguments.most)
 }
 
 fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values[values.len() / 2]
+}
+
+/// A ray as the kernel asks for it.
+#[derive(Debug, Clone, Copy)]
+struct Cast {
+    origin: [f32; 3],
+    direction: [f32; 3],
+    limit: f32,
+    origin_face: u32,
+    any: bool,
+}
+
+/// Time the rays, one by one.
+fn trace(scene: &FlatScene, view: &View, tree: &WideBvh, rays: &[Cast]) -> Duration {
+    let world = World { scene, view, intersector: Intersector::Watertight, effects: EffectSet::NONE };
+    let started = Instant::now();
+    let met: u64 = rays
+        .par_chunks(CHUNK)
+        .map(|rays| {
+            let meets = |cast: &Cast| {
+                let (origin, direction) = (Vec3::load(cast.origin), Vec3::load(cast.direction));
+                let ray = make_ray(&world, origin, direction, cast.origin_face);
+                if cast.any {
+                    u64::from(tree.occluded(&ray, cast.limit))
+                } else {
+                    // The distance is used, so that nothing is left out.
+                    u64::from(tree.intersect(&ray, cast.limit).t < cast.limit)
+                }
+            };
+            rays.iter().map(meets).sum::<u64>()
+        })
+        .sum();
+    let time = started.elapsed();
+    assert!(met <= rays.len() as u64);
+    time
+}
+
+/// The rays of a frame by kind, in the order of its tiles.
+#[derive(Debug, Default)]
+struct Sets {
+    primary: Vec<Cast>,
+    bounced: Vec<Cast>,
+    shadow: Vec<Cast>,
+}
+
+impl Sets {
+    fn of(scene: &FlatScene, view: &View, effects: EffectSet) -> Self {
+        let log = Mutex::new(Self::default());
+        let world = World {
+            scene,
+            view,
+            intersector: Intersector::Watertight,
+            effects: Noting { effects, log: &log },
+        };
+        let mut stack = Vec::new();
+        for [column, row] in morton_order(view.width, view.height) {
+            let (mut texel, mut aov) = (Texel::default(), Aov::default());
+            trace_pixel::<f32>(&world, &mut stack, [column, row], 0..1, &mut texel, &mut aov, None);
+        }
+        log.into_inner().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn all(&self) -> [(&'static str, &[Cast]); 3] {
+        [
+            ("P: primary", &self.primary),
+            ("R: reflected and refracted", &self.bounced),
+            ("S: to lights", &self.shadow),
+        ]
+    }
+}
+
+/// Simulates a frame and notes its rays.
+#[derive(Clone, Copy)]
+struct Noting<'a> {
+    effects: EffectSet,
+    log: &'a Mutex<Sets>,
+}
+
+impl Noting<'_> {
+    fn note<R: Real>(self, view: &View, ray: &Ray<R>, limit: R, any: bool) {
+        let three = |v: Vec3<R>| [v.x.to_f32(), v.y.to_f32(), v.z.to_f32()];
+        let limit = limit.to_f32();
+        let origin = three(ray.origin);
+        let cast = Cast { origin, direction: three(ray.direction), limit, origin_face: ray.origin_face, any };
+        let mut log = self.log.lock().unwrap_or_else(PoisonError::into_inner);
+        if limit < far::<f32>() {
+            log.shadow.push(cast);
+        } else if origin == view.eye {
+            log.primary.push(cast);
+        } else {
+            log.bounced.push(cast);
+        }
+    }
+}
+
+impl Simulation for Noting<'_> {
+    fn simulates(self, effect: Effect) -> bool {
+        self.effects.has(effect)
+    }
+
+    fn intersect<R: Real>(self, world: &World<Self>, ray: &Ray<R>, limit: R) -> Hit<R> {
+        self.note(world.view, ray, limit, false);
+        intersect(world, ray, limit)
+    }
+
+    fn occluded<R: Real>(self, world: &World<Self>, ray: &Ray<R>, limit: R) -> bool {
+        self.note(world.view, ray, limit, true);
+        snellius::kernel::bvh::occluded(world, ray, limit)
+    }
 }
