@@ -70,10 +70,12 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
     let sets = Sets::of(&flat, &view, effects);
     let pool = thread_pool(0)?;
     let mut renderer = CpuRenderer::new(&flat, 0)?;
-    let mut replay = |rays: &[Cast]| pool.install(|| trace(&flat, &view, &tree, rays));
+    let replay = |rays: &[Cast]| pool.install(|| trace(&flat, &view, &tree, rays));
     // Warm up.
     renderer.render(&view, &settings, &())?;
-    sets.all().iter().for_each(|(_, rays)| drop(replay(rays)));
+    for (_, rays) in sets.all() {
+        replay(rays);
+    }
     let mut frames = Vec::new();
     let mut times = [const { Vec::new() }; 3];
     for _ in 0..arguments.rounds.max(1) {

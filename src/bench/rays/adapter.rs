@@ -5,7 +5,7 @@ use std::time::Duration;
 use super::{Query, RayAnswer, RayRecord, RayStage};
 use crate::bench::BenchError;
 use crate::gpu::{AdapterReport, GpuOptions, Prober, Records, SOURCES, Source, Variant};
-use crate::layout::{Float, Plan, Settings};
+use crate::layout::{FlatScene, Float, Plan, Settings, View};
 
 /// Words of a ray, then of its answer.
 const RAY: usize = size_of::<RayRecord>() / 4;
@@ -23,24 +23,26 @@ impl RayAdapter {
     /// # Errors
     /// [`BenchError::Gpu`].
     pub fn new(adapter: &AdapterReport, stage: &RayStage) -> Result<Self, BenchError> {
-        Self::with_sources(adapter, stage, SOURCES)
+        Self::with_sources(adapter, stage.scene(), stage.view(), SOURCES)
     }
 
-    /// The same with other shader files, whose entry points `rays_nearest` and `rays_any` stand in the file `rays`.
+    /// The same with other shader files, whose entry points `rays_nearest` and `rays_any` stand in the file `rays`, and a
+    /// scene as they want it.
     ///
     /// # Errors
     /// [`BenchError::Gpu`].
     pub fn with_sources(
         adapter: &AdapterReport,
-        stage: &RayStage,
+        scene: &FlatScene,
+        view: &View,
         sources: &'static [Source<'static>],
     ) -> Result<Self, BenchError> {
         let options = GpuOptions { adapter: Some(adapter.name.clone()), ..GpuOptions::default() };
         let float = if adapter.strict_float { Float::Strict } else { Float::Fast };
         let settings = Settings { float, ..Settings::default() };
         Ok(Self {
-            prober: Prober::new(&stage.scene, &stage.view, &options, sources)?,
-            variant: Variant::new(stage.scene.bvh_depth, &settings, &Plan::general(0)),
+            prober: Prober::new(scene, view, &options, sources)?,
+            variant: Variant::new(scene.bvh_depth, &settings, &Plan::general(0)),
         })
     }
 
@@ -51,7 +53,10 @@ impl RayAdapter {
     }
 
     /// Put rays there.
-    pub(super) fn load(&self, rays: &[RayRecord]) -> Result<Records, BenchError> {
+    ///
+    /// # Errors
+    /// [`BenchError::Gpu`].
+    pub fn load(&self, rays: &[RayRecord]) -> Result<Records, BenchError> {
         let mut words = vec![0; rays.len() * STRIDE];
         for (words, ray) in words.chunks_exact_mut(STRIDE).zip(rays) {
             words[..RAY].copy_from_slice(bytemuck::cast_slice(std::slice::from_ref(ray)));
@@ -60,7 +65,10 @@ impl RayAdapter {
     }
 
     /// Trace them, and tell how long that took.
-    pub(super) fn trace(&mut self, records: &Records, query: Query) -> Result<Duration, BenchError> {
+    ///
+    /// # Errors
+    /// [`BenchError::Gpu`].
+    pub fn trace(&mut self, records: &Records, query: Query) -> Result<Duration, BenchError> {
         let entry = match query {
             Query::Nearest => "rays_nearest",
             Query::Any => "rays_any",
@@ -68,8 +76,11 @@ impl RayAdapter {
         Ok(self.prober.dispatch(records, ("rays", entry), &self.variant)?)
     }
 
-    /// What was found.
-    pub(super) fn answers(&self, records: &Records, count: usize) -> Result<Vec<RayAnswer>, BenchError> {
+    /// What was found for `count` rays.
+    ///
+    /// # Errors
+    /// [`BenchError::Gpu`].
+    pub fn answers(&self, records: &Records, count: usize) -> Result<Vec<RayAnswer>, BenchError> {
         let mut words = vec![0; count * STRIDE];
         self.prober.read(records, &mut words)?;
         let answer = |words: &[u32]| RayAnswer { t: f32::from_bits(words[RAY]), face: words[RAY + 1] };

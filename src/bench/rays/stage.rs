@@ -104,6 +104,18 @@ impl RayStage {
         self.wide.bytes() as f64 / self.triangles() as f64
     }
 
+    /// The triangles with the binary tree; nothing of shading.
+    #[must_use]
+    pub fn scene(&self) -> &FlatScene {
+        &self.scene
+    }
+
+    /// What rays need to know of a view: the scene's extent.
+    #[must_use]
+    pub fn view(&self) -> &View {
+        &self.view
+    }
+
     /// What the scalar kernel traces in.
     pub(super) fn world(&self) -> World<'_> {
         World {
