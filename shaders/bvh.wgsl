@@ -6,7 +6,7 @@ import package::records::Triangle;
 import package::bindings::{frame, triangle_at};
 import package::wide::{is_done, sight_of, visit, whole_tree};
 import package::constants::{
-    FAR, LEAST_DIRECTION, LOOP_STEPS, MOST_REACH, NODE_STEPS, NONE, ORIGIN_PADDING, SLAB_PADDING,
+    FAR, LEAST_DIRECTION, MOST_REACH, NODE_STEPS, NONE, ORIGIN_PADDING, SLAB_PADDING, WALK_STEPS,
 };
 
 // A ray, prepared for boxes and triangles.
@@ -109,8 +109,8 @@ fn is_usable(ray: Ray) -> bool {
 
 // The nearest triangle in (0, limit), ties to the lowest primitive id.
 //
-// The CPU tests a leaf's triangles in a loop of their own. Here each round of the one loop tests a triangle, or visits a
-// node, or both: invocations in step then wait for each other once a round, not once a leaf.
+// To the next node with triangles to test, then all of these (Aila and Laine 2009, "Understanding the efficiency of ray
+// traversal on GPUs", section 3: while-while).
 fn intersect(ray: Ray, limit: real) -> Hit {
     var best = Hit(limit, 0u, NONE, 0.0, 0.0, false);
     if !is_usable(ray) {
@@ -120,16 +120,18 @@ fn intersect(ray: Ray, limit: real) -> Hit {
     let sight = sight_of(ray);
     var ahead = whole_tree();
     loop {
-        steps += NODE_STEPS;
-        if ahead.triangles != 0u {
-            best = nearer(ray, ahead.first_triangle + firstTrailingBit(ahead.triangles), best);
-            ahead.triangles &= ahead.triangles - 1u;
+        steps += WALK_STEPS;
+        while ahead.triangles == 0u && !is_done(ahead) {
+            steps += NODE_STEPS;
+            ahead = visit(sight, ahead, best.t);
         }
         if ahead.triangles == 0u {
-            if is_done(ahead) {
-                break;
-            }
-            ahead = visit(sight, ahead, best.t);
+            break;
+        }
+        while ahead.triangles != 0u {
+            steps += NODE_STEPS;
+            best = nearer(ray, ahead.first_triangle + firstTrailingBit(ahead.triangles), best);
+            ahead.triangles &= ahead.triangles - 1u;
         }
     }
     if best.index == NONE {
@@ -148,19 +150,18 @@ fn occluded(ray: Ray, limit: real) -> bool {
     var ahead = whole_tree();
     var found = false;
     loop {
-        steps += NODE_STEPS;
-        if ahead.triangles != 0u {
+        steps += WALK_STEPS;
+        while ahead.triangles == 0u && !is_done(ahead) {
+            steps += NODE_STEPS;
+            ahead = visit(sight, ahead, limit);
+        }
+        while ahead.triangles != 0u && !found {
+            steps += NODE_STEPS;
             found = nearer(ray, ahead.first_triangle + firstTrailingBit(ahead.triangles), nothing).index != NONE;
             ahead.triangles &= ahead.triangles - 1u;
         }
-        if found {
+        if found || is_done(ahead) {
             break;
-        }
-        if ahead.triangles == 0u {
-            if is_done(ahead) {
-                break;
-            }
-            ahead = visit(sight, ahead, limit);
         }
     }
     return found;

@@ -112,7 +112,7 @@ fn distances(bytes: u32, origin: real, scale: real, seen_from: real, reciprocal:
 
 // The four bytes of a word: the built-in function may ask for bytes in the device's arithmetic, which few have.
 fn bytes_of(word: u32) -> vec4u {
-    return (vec4u(word) >> vec4u(0u, 8u, 16u, 24u)) & vec4u(255u);
+    return vec4u(word & 255u, (word >> 8u) & 255u, (word >> 16u) & 255u, word >> 24u);
 }
 
 // Those of four bit sets whose boxes are met, as one.

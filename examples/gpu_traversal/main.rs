@@ -13,7 +13,7 @@ use std::time::Duration;
 use clap::Parser;
 use snellius::bench::rays::{Pinhole, RayAdapter, RaySets, RayStage};
 use snellius::bvh::{Preset, pack};
-use snellius::gpu::{AdapterReport, SOURCES, Source, adapters};
+use snellius::gpu::{AdapterReport, SOURCES, Source, adapters, sources_in};
 use snellius::layout::{Corner, FlatScene, Node};
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
@@ -33,6 +33,9 @@ struct Arguments {
     /// Times that both ways are measured in turn
     #[arg(long, default_value_t = 7)]
     rounds: usize,
+    /// Take the kept way's shader files from this folder: for work on them
+    #[arg(long, value_name = "FOLDER")]
+    shaders: Option<PathBuf>,
     /// The kept way is to be so many times as fast
     #[arg(long, default_value_t = 1.5)]
     least: f64,
@@ -57,7 +60,8 @@ fn run(arguments: &Arguments) -> Result<bool> {
     let mut ratios = Vec::new();
     for mesh in &arguments.meshes {
         let stage = RayStage::load(mesh, Preset::Best, Pinhole::default())?;
-        let kept = RayAdapter::new(&adapter, &stage)?;
+        let sources = arguments.shaders.as_deref().map_or(Ok(SOURCES), sources_in)?;
+        let kept = RayAdapter::with_sources(&adapter, stage.scene(), stage.view(), sources)?;
         let mut ways = [plain(&adapter, &stage)?, kept];
         let sets = RaySets::of(&stage, arguments.side);
         for (letter, rays, query) in sets.by_letter() {

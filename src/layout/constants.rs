@@ -62,8 +62,10 @@ shared! {
     MAX_PASSES: u32 = 4096;
     /// Passes that a GPU invocation books for a round of a loop: the round, and one that finds the loop's end.
     LOOP_STEPS: u32 = 2;
-    /// Passes that it books for a round of the traversal: a node of the BVH, a triangle, or both.
+    /// Passes that it books for a node of the BVH, or a triangle.
     NODE_STEPS: u32 = 1;
+    /// Passes that it books for a walk to a node with triangles: the round, and those that find the ends of both of its loops.
+    WALK_STEPS: u32 = 3;
     /// Rows of four in [`View::media`](super::View::media).
     MEDIA_ROWS: u32 = MAX_MEDIA.div_ceil(4);
     /// Rows of four in [`View::radiance_bound`](super::View::radiance_bound): 0 to `MAX_DEPTH` levels.
