@@ -87,7 +87,6 @@ fn mistakes_are_told_with_code_2() {
         ("bench --rays scene.toml", "is not an .obj file"),
         ("bench --rays absent.obj", "absent.obj"),
         ("bench --rays square.obj --effects", "cannot be used with"),
-        ("bench --rays square.obj --backend gpu", "cannot be used with"),
         ("bench --rays square.obj --fov 180", "between 0 and 180"),
         ("bench --rays square.obj --eye 1,2", "expected X,Y,Z"),
         ("bench --rays square.obj --ray-file short.rays", "holds 5 bytes"),
