@@ -170,6 +170,13 @@ mod tests {
     }
 
     #[test]
+    fn the_fast_preset_fills_leaves() {
+        let triangles = soup(20_000, 1.0);
+        let nodes = |preset| build(&triangles, preset).unwrap().nodes.len();
+        assert!(nodes(Preset::Fast) < nodes(Preset::Best) * 3 / 4);
+    }
+
+    #[test]
     fn the_check_finds_planted_faults() {
         let triangles = soup(100, 1.0);
         let sound = build(&triangles, Preset::Best).unwrap();

@@ -61,6 +61,7 @@ pub struct Span<R> {
 }
 
 /// Prepare a ray that leaves the face `origin_face`, or none.
+#[inline]
 pub fn make_ray<R: Real>(
     world: &World<impl Simulation>,
     origin: Vec3<R>,
@@ -83,6 +84,7 @@ pub fn make_ray<R: Real>(
 }
 
 /// 1/d, finite: a component too small to matter counts as `LEAST_DIRECTION`; zero has no sign.
+#[inline]
 pub fn safe_reciprocal<R: Real>(d: R) -> R {
     let least = R::of(LEAST_DIRECTION);
     let clamped = if d.abs() < least { least } else { d };
@@ -138,6 +140,7 @@ pub fn triangle_slabs<R: Real>(ray: &Ray<R>, tri: &Triangle) -> Span<R> {
 
 /// Whether a scene can make such a ray: one with a NaN would enter every box, for comparisons tell nothing about it, and
 /// so would one from so far that the padding swallows the scene.
+#[inline]
 pub fn is_usable<R: Real>(ray: &Ray<R>) -> bool {
     let d = ray.direction.abs();
     // The padding of each component holds all of the origin.

@@ -28,6 +28,7 @@ pub struct Crossing<R> {
 }
 
 /// v with `axis` last, the others in cyclic order.
+#[inline]
 pub fn permute<R: Real>(v: Vec3<R>, axis: u32) -> Vec3<R> {
     match axis {
         0 => Vec3::new(v.y, v.z, v.x),
@@ -37,6 +38,7 @@ pub fn permute<R: Real>(v: Vec3<R>, axis: u32) -> Vec3<R> {
 }
 
 /// The shear of a direction (Woop, Benthin, Wald 2013, section 3.1).
+#[inline]
 pub fn shear_of<R: Real>(direction: Vec3<R>) -> Shear<R> {
     let a = direction.abs();
     let mut axis = if a.y > a.x { 1 } else { 0 };

@@ -70,6 +70,28 @@ fn the_rays_of_a_file_are_traced_and_answered() {
 }
 
 #[test]
+fn rays_are_traced_on_an_adapter_too() {
+    if find("llvmpipe").is_none() {
+        return;
+    }
+    let folder = folder();
+    fs::write(folder.path().join("square.obj"), SQUARE).expect("a file");
+    let down = |x: f32| [x, 2.0, -0.5, 0.0, 0.0, -1.0, 0.0, 9.0];
+    fs::write(folder.path().join("a.rays"), rays(&[down(0.5), down(5.0), down(-0.5)])).expect("a file");
+    for any in ["", "--any"] {
+        let line =
+            format!("bench --rays square.obj --ray-file a.rays {any} --adapter llvmpipe --rounds 6 --json");
+        let run = snellius(folder.path(), &line);
+        assert_eq!(run.code, 0, "{}", run.stderr);
+        let json = run.json();
+        let last = json["runs"].as_array().and_then(|runs| runs.last()).expect("a run");
+        assert!(last["device"].as_str().is_some_and(|name| name.starts_with("llvmpipe")), "{json}");
+        assert_eq!(last["threads"].as_u64(), Some(0));
+        assert_eq!((last["mode"].as_str(), last["hits"].as_u64()), (Some("single"), Some(2)));
+    }
+}
+
+#[test]
 fn mistakes_are_told_with_code_2() {
     let folder = folder();
     fs::write(folder.path().join("square.obj"), SQUARE).expect("a file");

@@ -115,6 +115,7 @@ impl WideBvh {
     /// The nearest triangle in (0, limit), ties to the lowest primitive id: the bits of
     /// [`bvh::intersect`](crate::kernel::bvh::intersect), `index` into the triangles that the tree was made of.
     #[must_use]
+    #[inline]
     pub fn intersect(&self, ray: &Ray<f32>, limit: f32) -> Hit<f32> {
         let miss = Hit { t: limit, id: NONE, index: NONE, b1: 0.0, b2: 0.0, front: false };
         if !is_usable(ray) {
@@ -136,6 +137,7 @@ impl WideBvh {
 
     /// Whether any triangle lies in (0, limit), as [`bvh::occluded`](crate::kernel::bvh::occluded) says.
     #[must_use]
+    #[inline]
     pub fn occluded(&self, ray: &Ray<f32>, limit: f32) -> bool {
         is_usable(ray) && self.level.run(Any { tree: &self.tree, ray, limit })
     }

@@ -11,7 +11,7 @@ pub(super) fn with_capacity<T>(capacity: usize) -> Vec<T> {
     vec
 }
 
-/// Smallest and largest of what a page may be.
+/// Where ranges of a hint begin and end, on most machines; others refuse it.
 #[cfg(target_os = "linux")]
 const PAGE: usize = 4096;
 #[cfg(target_os = "linux")]
@@ -29,4 +29,19 @@ fn advise<T>(vec: &Vec<T>) {
     let length = (vec.as_ptr() as usize + bytes - first) / PAGE * PAGE;
     // SAFETY: the range lies in the vector's own allocation, and the advice changes nothing of what is in it.
     let _ = unsafe { madvise(first as *mut _, length, Advice::LinuxHugepage) };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_written_is_there_in_pages_of_any_size() {
+        for capacity in [0, 1, 1 << 10, 3 << 20] {
+            let mut vec = with_capacity(capacity);
+            assert!(vec.capacity() >= capacity);
+            vec.extend(0..capacity as u32);
+            assert!(vec.iter().copied().eq(0..capacity as u32));
+        }
+    }
 }
