@@ -2,8 +2,8 @@
 //!
 //! `snellius bench --rays MESH.obj --dump DIR`, then `cargo run --release --example brute_force -- MESH.obj DIR`. A ray agrees
 //! if both name the same face. It is a *tie* if it passes so near to an edge, or to another face at the same distance, that
-//! rounding to f32 decides: each is listed. Anything else is a disagreement, and the exit code is 1. A minute or two for
-//! 4·10⁶ rays and 10⁴ triangles on two cores.
+//! rounding to f32 decides: each is listed. Anything else is a disagreement, and the exit code is 1. A minute on two cores
+//! for 10⁶ rays and 10⁴ triangles.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};

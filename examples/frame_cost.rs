@@ -14,6 +14,7 @@ use std::time::{Duration, Instant};
 
 use clap::Parser;
 use rayon::prelude::*;
+use snellius::bench::{Ratio, median, take_turns};
 use snellius::cpu::{CpuRenderer, WideBvh, morton_order, thread_pool};
 use snellius::film::Renderer;
 use snellius::flatten::{flatten, view};
@@ -72,40 +73,26 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
     let pool = thread_pool(0)?;
     let mut renderer = CpuRenderer::new(&flat, 0)?;
     let replay = |rays: &[Cast]| pool.install(|| trace(&flat, &view, &tree, rays));
-    // Warm up.
-    renderer.render(&view, &settings, &())?;
-    for (_, rays) in sets.all() {
-        replay(rays);
-    }
-    let mut frames = Vec::new();
-    let mut times = [const { Vec::new() }; 3];
-    for _ in 0..arguments.rounds.max(1) {
-        frames.push(renderer.render(&view, &settings, &())?.times.trace);
-        for (times, (_, rays)) in times.iter_mut().zip(sets.all()) {
-            times.push(replay(rays));
-        }
-    }
-    let ratio = |round: usize| {
-        let rays: Duration = times.iter().map(|times| times[round]).sum();
-        frames[round].as_secs_f64() / rays.as_secs_f64()
-    };
-    let ratio = median((0..frames.len()).map(ratio).collect());
+    let times =
+        take_turns(arguments.rounds.max(1), 1 + sets.all().len(), |side| match side.checked_sub(1) {
+            None => renderer.render(&view, &settings, &()).map(|frame| frame.times.trace),
+            Some(set) => Ok(replay(sets.all()[set].1)),
+        })?;
+    let (frames, of_sets) = (&times[0], &times[1..]);
+    let alone: Vec<Duration> =
+        (0..frames.len()).map(|round| of_sets.iter().map(|times| times[round]).sum()).collect();
+    let ratio = Ratio::of(frames, &alone).median;
     println!("| {}, {} threads | rays | ms | Mrays/s |", arguments.scene.display(), renderer.threads());
     println!("|---|--:|--:|--:|");
-    let in_ms = |times: &[Duration]| median(times.iter().map(|time| time.as_secs_f64() * 1e3).collect());
-    for (times, (name, rays)) in times.iter().zip(sets.all()) {
+    let in_ms = |times: &[Duration]| median(times).as_secs_f64() * 1e3;
+    for (times, (name, rays)) in of_sets.iter().zip(sets.all()) {
         let ms = in_ms(times);
         println!("| {name} | {} | {ms:.0} | {:.2} |", rays.len(), rays.len() as f64 / ms / 1e3);
     }
     let whole: usize = sets.all().iter().map(|(_, rays)| rays.len()).sum();
-    println!("| the frame | {whole} | {:.0} | |", in_ms(&frames));
+    println!("| the frame | {whole} | {:.0} | |", in_ms(frames));
     println!("\nratio, median of {}: {ratio:.2} (≤ {})", frames.len(), arguments.most);
     Ok(ratio <= arguments.most)
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }
 
 /// A ray as the kernel asks for it.

@@ -12,6 +12,7 @@ use std::time::Duration;
 
 use clap::Parser;
 use snellius::bench::rays::{Pinhole, RayAdapter, RaySets, RayStage};
+use snellius::bench::{Ratio, Spread, median, take_turns};
 use snellius::bvh::{Preset, pack};
 use snellius::gpu::{AdapterReport, SOURCES, Source, adapters, sources_in};
 use snellius::layout::{Corner, FlatScene, Node};
@@ -66,40 +67,24 @@ fn run(arguments: &Arguments) -> Result<bool> {
         let sets = RaySets::of(&stage, arguments.side);
         for (letter, rays, query) in sets.by_letter() {
             let records = [ways[0].load(rays)?, ways[1].load(rays)?];
-            let mut times = [const { Vec::new() }; 2];
-            for round in 0..=arguments.rounds.max(1) {
-                for way in 0..2 {
-                    let time = ways[way].trace(&records[way], query)?;
-                    // The first is a warm-up.
-                    if round > 0 {
-                        times[way].push(time);
-                    }
-                }
-            }
+            let times =
+                take_turns(arguments.rounds.max(1), ways.len(), |way| ways[way].trace(&records[way], query))?;
             if ways[0].answers(&records[0], rays.len())? != ways[1].answers(&records[1], rays.len())? {
                 println!("{}, {letter}: the answers differ", mesh.display());
                 return Ok(false);
             }
-            let [plain, kept] = &times;
-            let ratio =
-                median(plain.iter().zip(kept).map(|(a, b)| a.as_secs_f64() / b.as_secs_f64()).collect());
-            let rate = |times: &[Duration]| {
-                rays.len() as f64 / median(times.iter().map(Duration::as_secs_f64).collect()) / 1e6
-            };
+            let (plain, kept) = (&times[0], &times[1]);
+            let ratio = Ratio::of(plain, kept).median;
+            let rate = |times: &[Duration]| rays.len() as f64 / median(times).as_secs_f64() / 1e6;
             let name = mesh.file_stem().unwrap_or_default().to_string_lossy();
             let (count, plain, kept) = (rays.len(), rate(plain), rate(kept));
             println!("| {name} | {letter} | {count} | {plain:.2} | {kept:.2} | {ratio:.2} |");
             ratios.push(ratio);
         }
     }
-    let ratio = median(ratios);
+    let ratio = Spread::of(ratios).median;
     println!("\nmedian ratio {ratio:.2} (≥ {})", arguments.least);
     Ok(ratio >= arguments.least)
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }
 
 /// The plain way: its nodes lie where the shading corners of a scene are.

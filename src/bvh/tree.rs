@@ -6,7 +6,7 @@ pub(super) struct Branch {
     /// The children are nodes `first` and `first + 1` where `count` is 0; else the leaf's first place in
     /// [`Tree::order`].
     pub(super) first: u32,
-    /// Triangles of a leaf; 0 for an branches node.
+    /// Triangles of a leaf; 0 for an inner node.
     pub(super) count: u32,
 }
 
