@@ -4,8 +4,8 @@
 //! budget chooses, the RMSE of their picture against the whole tree in f64, that one's own uncertainty as its certified
 //! bounds prove it, and the time against that of the cheapest row of a study (depth, cut-off or precision changed from
 //! what the scene asks for) that keeps the error too. Then with samples to be chosen: the RMSE against many more of them
-//! in f64. Tables are Markdown; the exit code is 1 where an error is not kept, or takes more than half as long again as
-//! the row, 2 where a scene cannot be traced.
+//! in f64, which takes a quarter of an hour. Tables are Markdown; the exit code is 1 where an error is not kept, or takes
+//! more than half as long again as the row, 2 where a scene cannot be traced.
 
 mod rows;
 mod stage;
@@ -45,7 +45,7 @@ struct Arguments {
     #[arg(long, num_args = 2, value_names = ["W", "H"], default_values_t = [200, 150])]
     size: Vec<u32>,
     /// Width and height of pictures of which the samples are chosen; 0 0 leaves them out
-    #[arg(long, num_args = 2, value_names = ["W", "H"], default_values_t = [48, 36])]
+    #[arg(long, num_args = 2, value_names = ["W", "H"], default_values_t = [16, 12])]
     sampled_size: Vec<u32>,
     /// Runs of each timed picture
     #[arg(long, default_value_t = 5)]

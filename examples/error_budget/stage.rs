@@ -12,6 +12,8 @@ use super::Result;
 
 /// Cut-offs of the truth: of one sample, and of many, for which there is less time.
 const TRUEST: [f32; 2] = [1e-7, 1e-5];
+/// Side of the tiles of the truth in pixels: pictures of many samples are small, and all threads are to have some.
+const TILE: u32 = 4;
 
 /// A scene, ready to be traced at a size.
 pub(super) struct Stage {
@@ -38,14 +40,20 @@ impl Stage {
 
     /// Trace a picture on all threads of the CPU.
     pub(super) fn shoot(&self, settings: &Settings) -> Result<Shot> {
-        let view = flatten::view(&self.scene.camera, &self.flat, self.size, None, settings);
-        Ok(Shot::of(&CpuRenderer::new(&self.flat, 0)?.render(&view, settings, &())?))
+        self.trace(CpuRenderer::new(&self.flat, 0)?, settings)
     }
 
     /// The whole tree in f64, of so many samples.
     pub(super) fn truth(&self, samples: u32) -> Result<Shot> {
         let cutoff = TRUEST[usize::from(samples > 1)];
-        self.shoot(&Settings { depth: 64, cutoff, samples, precision: Precision::F64, ..Settings::default() })
+        let settings =
+            Settings { depth: 64, cutoff, samples, precision: Precision::F64, ..Settings::default() };
+        self.trace(CpuRenderer::with_tile(&self.flat, 0, TILE)?, &settings)
+    }
+
+    fn trace(&self, mut renderer: CpuRenderer<'_>, settings: &Settings) -> Result<Shot> {
+        let view = flatten::view(&self.scene.camera, &self.flat, self.size, None, settings);
+        Ok(Shot::of(&renderer.render(&view, settings, &())?))
     }
 }
 

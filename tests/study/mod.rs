@@ -189,6 +189,16 @@ fn a_budget_counts_the_samples_that_are_missing() {
     assert!(rmse(fewer) > 0.8 * limit, "{choice:?}");
 }
 
+/// Its 12 pixels' middles need no reflections, but their samples do.
+#[test]
+fn a_budget_of_few_pixels_knows_what_their_samples_meet() {
+    let subject = flattened("still_life.obj");
+    let goal = Goal::Error { limit: 0.03, metric: Metric::Rmse };
+    let choice = choose(&request(&subject, [4, 3], false), goal, &mut no_clock).unwrap();
+    assert!(choice.probed > 10_000, "{choice:?}");
+    assert!(choice.settings.depth > 1, "{choice:?}");
+}
+
 #[test]
 fn a_budget_that_no_samples_keep_says_so_before_it_tries_them() {
     let subject = flattened("opaque.toml");

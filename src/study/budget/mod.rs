@@ -75,7 +75,7 @@ pub struct Choice {
 }
 
 /// Most samples that a budget asks for.
-pub const MOST_SAMPLES: u32 = 4096;
+pub const MOST_SAMPLES: u32 = 16_384;
 /// Of a time, what is aimed at: pictures take a little longer some times than others.
 const TIME_MARGIN: f64 = 0.9;
 /// Errors from 1 down to 2^-20 that a time is tried with: as many steps to a half.

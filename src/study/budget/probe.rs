@@ -45,7 +45,7 @@ pub(super) struct Probe<'a> {
     judge: Seen,
     pub(super) uncertainty: Uncertainty,
     metric: Metric,
-    /// What it is of the picture: 1 where it has all pixels, else 0, for it has others.
+    /// What it is of the picture: 1 where it has all pixels and their samples, else 0, for it has others.
     share: f64,
     /// By depth, bits of the cut-off, and precision.
     known: HashMap<(u32, u32, Precision), Tried>,
@@ -53,14 +53,19 @@ pub(super) struct Probe<'a> {
 
 impl<'a> Probe<'a> {
     /// Trace the judge, as far as its time goes: the whole tree in f64 of the request's samples, of one where those are to
-    /// be chosen. The mean of more errs no more than each of them.
+    /// be chosen. The mean of more errs no more than each of them; but they meet what the middle of a pixel does not, so that
+    /// of a small picture more is probed than it has pixels.
     pub(super) fn new(request: &Request<'a>, metric: Metric) -> Result<Self, StudyError> {
         let mut request = *request;
         if !request.keeps_samples {
             request.base = Settings { samples: 1, adaptive: None, ..request.base };
         }
         let base = request.base;
-        let size = size_of(request.size, base.samples);
+        let size = if request.keeps_samples {
+            size_of(request.size, base.samples)
+        } else {
+            shape_of(request.size, PROBE)
+        };
         let mut renderer = CpuRenderer::new(request.scene, 0)?;
         let mut shoot = |settings: &Settings| shoot(&mut renderer, &request, size, settings);
         let coarsest =
@@ -73,7 +78,7 @@ impl<'a> Probe<'a> {
             return Err(StudyError::TooSlow { seconds: limit.as_secs_f64() });
         };
         Ok(Self {
-            share: if size == request.size { 1.0 } else { 0.0 },
+            share: if request.keeps_samples && size == request.size { 1.0 } else { 0.0 },
             request,
             size,
             renderer,
@@ -144,9 +149,15 @@ fn shoot(
 
 /// The picture's shape in about [`PROBE`] samples, but no more pixels than it has.
 pub(super) fn size_of([width, height]: [u32; 2], samples: u32) -> [u32; 2] {
-    let wanted = f64::from((PROBE / samples.max(1)).max(LEAST_PIXELS));
-    let scale = (wanted / (f64::from(width) * f64::from(height))).sqrt().min(1.0);
-    [width, height].map(|side| ((f64::from(side) * scale).round() as u32).max(1))
+    let wanted = (PROBE / samples.max(1)).max(LEAST_PIXELS);
+    if width * height <= wanted { [width, height] } else { shape_of([width, height], wanted) }
+}
+
+/// The picture's shape in about so many pixels.
+fn shape_of(size: [u32; 2], pixels: u32) -> [u32; 2] {
+    let [width, height] = size.map(f64::from);
+    let scale = (f64::from(pixels) / (width * height)).sqrt();
+    size.map(|side| ((f64::from(side) * scale).round() as u32).max(1))
 }
 
 fn cutoff(exponent: i32) -> f32 {
@@ -163,5 +174,11 @@ mod tests {
         assert_eq!(size_of([64, 48], 1), [64, 48]);
         assert_eq!(size_of([1280, 720], 64), [85, 48]);
         assert_eq!(size_of([16384, 1], 1), [16384, 1]);
+    }
+
+    #[test]
+    fn where_samples_are_chosen_a_small_picture_is_probed_in_more_pixels_than_it_has() {
+        assert_eq!(shape_of([16, 12], PROBE), [148, 111]);
+        assert_eq!(shape_of([1280, 720], PROBE), [171, 96]);
     }
 }
