@@ -1,43 +1,18 @@
 //! How fast a set of rays is traced, once every answer is right.
 
 use std::borrow::Cow;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::{RayAdapter, RayAnswer, RayRecord, RayStage};
+use super::{Mode, Query, RayAdapter, RayAnswer, RayHost, RayRecord, RayStage};
 use crate::bench::{BenchError, median, take_turns};
-use crate::cpu::{Cast, thread_pool};
+use crate::cpu::thread_pool;
 use crate::gpu::Records;
-use crate::kernel::bvh::{Hit, intersect, make_ray, occluded};
-use crate::kernel::{Real, Vec3};
+use crate::kernel::Vec3;
+use crate::kernel::bvh::{intersect, make_ray, occluded};
 use crate::layout::constants::NONE;
-
-/// Rays that a thread takes at a time.
-const CHUNK: usize = 4096;
-
-/// Rays that are handed to the stream kernel at a time.
-const STREAM: usize = 64;
-
-/// What is asked of a ray.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Query {
-    /// Where it first hits.
-    Nearest,
-    /// Whether it hits.
-    Any,
-}
-
-/// How rays are handed to the kernel.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Mode {
-    /// One by one.
-    Single,
-    /// As a stream, of which neighbours go together as long as they go the same way.
-    Coherent,
-}
 
 /// One set on one device. Every answer had the bits of the scalar kernel's.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -85,7 +60,7 @@ pub fn measure(
     let pools = &pools[..if pools[1].current_num_threads() == 1 { 1 } else { 2 }];
     let mut sides = Vec::new();
     for mode in [Mode::Single, Mode::Coherent] {
-        let host = |pool| Host { stage, rays, query, mode, pool, found: vec![RayAnswer::MISS; rays.len()] };
+        let host = |pool| RayHost::new(stage, rays, query, mode, pool);
         sides.extend(pools.iter().map(|pool| Side::Cpu(host(pool))));
     }
     for adapter in adapters {
@@ -126,19 +101,11 @@ fn judge(stage: &RayStage, rays: &[RayRecord], query: Query) -> Vec<RayAnswer> {
     let answer = |ray: &RayRecord| {
         let made = make_ray(&world, Vec3::load(ray.origin), Vec3::load(ray.direction), NONE);
         match query {
-            Query::Nearest => nearest(&intersect(&world, &made, ray.tmax)),
-            Query::Any => any(occluded(&world, &made, ray.tmax)),
+            Query::Nearest => RayAnswer::nearest(&intersect(&world, &made, ray.tmax)),
+            Query::Any => RayAnswer::any(occluded(&world, &made, ray.tmax)),
         }
     };
     rays.par_iter().map(answer).collect()
-}
-
-fn nearest<R: Real>(hit: &Hit<R>) -> RayAnswer {
-    if hit.id == NONE { RayAnswer::MISS } else { RayAnswer { t: hit.t.to_f32(), face: hit.id } }
-}
-
-fn any(hit: bool) -> RayAnswer {
-    if hit { RayAnswer { t: 0.0, face: 0 } } else { RayAnswer::MISS }
 }
 
 /// The first ray whose answers differ in a bit.
@@ -149,7 +116,7 @@ fn differing(found: &[RayAnswer], expected: &[RayAnswer]) -> Option<usize> {
 
 /// One way to trace a set.
 enum Side<'a> {
-    Cpu(Host<'a>),
+    Cpu(RayHost<'a>),
     Gpu { adapter: &'a mut RayAdapter, records: Records, query: Query },
 }
 
@@ -164,7 +131,7 @@ impl Side<'_> {
     /// What the last trace of `count` rays found.
     fn answers(&self, count: usize) -> Result<Cow<'_, [RayAnswer]>, BenchError> {
         match self {
-            Self::Cpu(host) => Ok(Cow::Borrowed(&host.found)),
+            Self::Cpu(host) => Ok(Cow::Borrowed(host.answers())),
             Self::Gpu { adapter, records, .. } => Ok(Cow::Owned(adapter.answers(records, count)?)),
         }
     }
@@ -178,14 +145,14 @@ impl Side<'_> {
 
     fn threads(&self) -> usize {
         match self {
-            Self::Cpu(host) => host.pool.current_num_threads(),
+            Self::Cpu(host) => host.threads(),
             Self::Gpu { .. } => 0,
         }
     }
 
     fn mode(&self) -> Mode {
         match self {
-            Self::Cpu(host) => host.mode,
+            Self::Cpu(host) => host.mode(),
             Self::Gpu { .. } => Mode::Single,
         }
     }
@@ -194,63 +161,6 @@ impl Side<'_> {
         match self {
             Self::Cpu(_) => format!("{:?}, {} threads", self.mode(), self.threads()),
             Self::Gpu { .. } => self.device().to_owned(),
-        }
-    }
-}
-
-/// The CPU with some threads.
-struct Host<'a> {
-    stage: &'a RayStage,
-    rays: &'a [RayRecord],
-    query: Query,
-    mode: Mode,
-    pool: &'a rayon::ThreadPool,
-    found: Vec<RayAnswer>,
-}
-
-impl Host<'_> {
-    fn trace(&mut self) -> Duration {
-        let Self { stage, rays, query, mode, pool, found } = self;
-        let chunks = || {
-            let pairs = rays.par_chunks(CHUNK).zip(found.par_chunks_mut(CHUNK));
-            pairs.for_each(|(rays, found)| match mode {
-                Mode::Single => one_by_one(stage, rays, *query, found),
-                Mode::Coherent => as_stream(stage, rays, *query, found),
-            });
-        };
-        let started = Instant::now();
-        pool.install(chunks);
-        started.elapsed()
-    }
-}
-
-fn one_by_one(stage: &RayStage, rays: &[RayRecord], query: Query, found: &mut [RayAnswer]) {
-    let world = stage.world();
-    for (ray, found) in rays.iter().zip(found) {
-        let made = make_ray(&world, Vec3::load(ray.origin), Vec3::load(ray.direction), NONE);
-        *found = match query {
-            Query::Nearest => nearest(&stage.wide.intersect(&made, ray.tmax)),
-            Query::Any => any(stage.wide.occluded(&made, ray.tmax)),
-        };
-    }
-}
-
-fn as_stream(stage: &RayStage, rays: &[RayRecord], query: Query, found: &mut [RayAnswer]) {
-    let mut casts = [Cast { origin: [0.0; 3], limit: 0.0, direction: [0.0; 3], origin_face: NONE }; STREAM];
-    let mut hits = [Hit { t: 0.0, id: NONE, index: NONE, b1: 0.0, b2: 0.0, front: false }; STREAM];
-    let mut blocked = [false; STREAM];
-    for (rays, found) in rays.chunks(STREAM).zip(found.chunks_mut(STREAM)) {
-        let casts = &mut casts[..rays.len()];
-        casts.iter_mut().zip(rays).for_each(|(cast, ray)| *cast = ray.into());
-        match query {
-            Query::Nearest => {
-                stage.wide.intersect_stream(casts, &mut hits[..rays.len()]);
-                found.iter_mut().zip(&hits).for_each(|(found, hit)| *found = nearest(hit));
-            }
-            Query::Any => {
-                stage.wide.occluded_stream(casts, &mut blocked[..rays.len()]);
-                found.iter_mut().zip(&blocked).for_each(|(found, &blocked)| *found = any(blocked));
-            }
         }
     }
 }

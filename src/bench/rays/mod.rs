@@ -5,13 +5,15 @@
 //! any other engine can run the very same ones.
 
 mod adapter;
+mod host;
 mod measure;
 mod record;
 mod sets;
 mod stage;
 
 pub use adapter::RayAdapter;
-pub use measure::{Measured, Mode, Query, RayRun, measure};
+pub use host::{Mode, Query, RayHost};
+pub use measure::{Measured, RayRun, measure};
 pub use record::{RayAnswer, RayError, RayRecord, read_answers, read_rays, write_answers, write_rays};
 pub use sets::{RaySets, SIDE};
 pub use stage::{Pinhole, RayStage};

@@ -8,6 +8,8 @@ use bytemuck::{Pod, Zeroable};
 use thiserror::Error;
 
 use crate::bvh::BvhError;
+use crate::kernel::Real;
+use crate::kernel::bvh::Hit;
 use crate::layout::constants::NONE;
 
 /// A ray of a `.rays` file.
@@ -37,6 +39,16 @@ pub struct RayAnswer {
 impl RayAnswer {
     /// Nothing hit.
     pub const MISS: Self = Self { t: 0.0, face: NONE };
+
+    /// Of a kernel's nearest hit.
+    pub(super) fn nearest<R: Real>(hit: &Hit<R>) -> Self {
+        if hit.id == NONE { Self::MISS } else { Self { t: hit.t.to_f32(), face: hit.id } }
+    }
+
+    /// Of whether there is any.
+    pub(super) fn any(hit: bool) -> Self {
+        if hit { Self { t: 0.0, face: 0 } } else { Self::MISS }
+    }
 
     /// Whether anything was hit.
     #[must_use]

@@ -1,0 +1,227 @@
+//! Snellius beside Embree: the same rays through the same mesh in one process, in turn, on one thread; and the build.
+//!
+//! `cargo run --release --example embree -- MESH.obj [MESH.obj …]` loads Embree 3 as it runs (Debian: libembree3-3). The rays
+//! are those of `snellius bench --rays`, or of `--rays DIR`, a folder of MESH.{P,R,D,S}.rays. Embree is robust, of medium
+//! quality, and traces one by one as well as in packets of eight; what Snellius traces has the bits of its scalar kernel, which
+//! `snellius bench --rays` holds. The exit code is 1 if rays hit in one engine alone, but for [`ALONE`], if Snellius is slower
+//! in what the two promise each other (single rays; P and S as streams), or if a build takes too long.
+
+mod engine;
+mod functions;
+
+use std::error::Error;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+use clap::Parser;
+use rayon::ThreadPool;
+use rayon::prelude::*;
+use snellius::bench::rays::{
+    Mode, Pinhole, Query, RayAnswer, RayHost, RayRecord, RaySets, RayStage, SIDE, read_rays,
+};
+use snellius::bench::{Ratio, median, take_turns};
+use snellius::bvh::{self, BvhError, Preset};
+use snellius::cpu::{WideBvh, thread_pool};
+use snellius::layout::Triangle;
+use snellius::scene;
+
+use crate::engine::{Embree, Scene};
+
+type Result<T> = std::result::Result<T, Box<dyn Error>>;
+
+/// Of so many rays one may pass through an edge so narrowly that the engines' arithmetic decides.
+const ALONE: usize = 100_000;
+
+/// Compare rays and builds with Embree
+#[derive(Debug, Parser)]
+struct Arguments {
+    /// Meshes of triangles
+    #[arg(required = true)]
+    meshes: Vec<PathBuf>,
+    /// Folder of MESH.{P,R,D,S}.rays
+    #[arg(long, value_name = "DIR")]
+    rays: Option<PathBuf>,
+    /// Embree 3
+    #[arg(long, default_value = "libembree3.so.3")]
+    library: String,
+    /// Times that both engines are measured in turn
+    #[arg(long, default_value_t = 7)]
+    rounds: usize,
+    /// Triangles that are built, the first of each mesh
+    #[arg(long, default_value_t = 871_000)]
+    first: usize,
+    /// Snellius is to trace so many times as fast
+    #[arg(long, default_value_t = 1.0)]
+    least: f64,
+    /// Its fast build may take so many times as long
+    #[arg(long, default_value_t = 1.5)]
+    most: f64,
+}
+
+fn main() -> ExitCode {
+    match run(&Arguments::parse()) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::from(1),
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn run(arguments: &Arguments) -> Result<bool> {
+    let embree = Embree::load(&arguments.library)?;
+    let pools = [thread_pool(1)?, thread_pool(0)?];
+    println!("Embree {}, robust, medium quality; medians of {} rounds\n", embree.version(), arguments.rounds);
+    println!(
+        "| mesh | rays | of them | mode | Snellius, Mrays/s | Embree, Mrays/s | ratio (95 %) | hits | Embree's |"
+    );
+    println!("|---|---|--:|---|--:|--:|--:|--:|--:|");
+    let mut holds = true;
+    for path in &arguments.meshes {
+        let mesh = Mesh::load(path)?;
+        let stage = RayStage::load(path, Preset::Best, Pinhole::default())?;
+        let (theirs, _) = Scene::build(&embree, &mesh.points, &mesh.triangles)?;
+        for (letter, rays, query) in sets(arguments, path, &stage)? {
+            for mode in [Mode::Single, Mode::Coherent] {
+                let duel = Duel { stage: &stage, theirs: &theirs, pool: &pools[0], rays: &rays, query, mode };
+                let Outcome { ours, embree, ratio, hits, alone } = duel.run(arguments.rounds)?;
+                let (rate, of) = (|time: Duration| rays.len() as f64 / time.as_secs_f64() / 1e6, rays.len());
+                let (ours, embree, Ratio { median, low, high }) = (rate(ours), rate(embree), ratio);
+                let [name, mode_name] =
+                    [&*mesh.name, if mode == Mode::Single { "single" } else { "stream, packets" }];
+                println!(
+                    "| {name} | {letter} | {of} | {mode_name} | {ours:.2} | {embree:.2} | {median:.2} ({low:.2}–{high:.2}) | {} | {} |",
+                    hits[0], hits[1]
+                );
+                let promised = mode == Mode::Single || matches!(letter, "P" | "S");
+                holds &= alone <= rays.len() / ALONE && (!promised || median >= arguments.least);
+            }
+        }
+    }
+    println!("\n| mesh | triangles | Embree, ms | fast, ms | of Embree's | best, ms | of Embree's |");
+    println!("|---|--:|--:|--:|--:|--:|--:|");
+    for path in &arguments.meshes {
+        let mesh = Mesh::load(path)?;
+        let faces = &mesh.triangles[..arguments.first.min(mesh.triangles.len())];
+        let times = builds(&embree, &mesh.points, faces, &pools[1], arguments.rounds)?;
+        let [theirs, fast, best] = [0, 1, 2].map(|side: usize| median(&times[side]).as_secs_f64() * 1e3);
+        let [fast_ratio, best_ratio] = [1, 2].map(|side: usize| Ratio::of(&times[side], &times[0]).median);
+        let (name, of) = (&mesh.name, faces.len());
+        println!(
+            "| {name} | {of} | {theirs:.0} | {fast:.0} | {fast_ratio:.2} | {best:.0} | {best_ratio:.2} |"
+        );
+        holds &= fast_ratio <= arguments.most;
+    }
+    Ok(holds)
+}
+
+/// A mesh as its file has it.
+struct Mesh {
+    name: String,
+    points: Vec<[f32; 3]>,
+    triangles: Vec<[u32; 3]>,
+}
+
+impl Mesh {
+    fn load(path: &Path) -> Result<Self> {
+        let scene = scene::Scene::load(path)?;
+        let [model] = &*scene.models else {
+            return Err(format!("{}: one model is needed", path.display()).into());
+        };
+        Ok(Self {
+            name: path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+            points: model.mesh.positions.iter().map(|point| point.as_vec3().to_array()).collect(),
+            triangles: model.mesh.triangles.iter().map(|triangle| triangle.positions).collect(),
+        })
+    }
+}
+
+/// The sets of rays by their letters.
+fn sets(
+    arguments: &Arguments,
+    mesh: &Path,
+    stage: &RayStage,
+) -> Result<Vec<(&'static str, Vec<RayRecord>, Query)>> {
+    let Some(folder) = &arguments.rays else {
+        let own = RaySets::of(stage, SIDE);
+        return Ok(own.by_letter().map(|(letter, rays, query)| (letter, rays.to_vec(), query)).into());
+    };
+    let stem = mesh.file_stem().unwrap_or_default().to_string_lossy();
+    [("P", Query::Nearest), ("R", Query::Nearest), ("D", Query::Nearest), ("S", Query::Any)]
+        .into_iter()
+        .map(|(letter, query)| Ok((letter, read_rays(&folder.join(format!("{stem}.{letter}.rays")))?, query)))
+        .collect()
+}
+
+/// A set of rays for both engines, on the same thread.
+struct Duel<'a> {
+    stage: &'a RayStage,
+    theirs: &'a Scene<'a>,
+    pool: &'a ThreadPool,
+    rays: &'a [RayRecord],
+    query: Query,
+    mode: Mode,
+}
+
+/// What came of it.
+struct Outcome {
+    ours: Duration,
+    embree: Duration,
+    /// Of their time to ours.
+    ratio: Ratio,
+    hits: [usize; 2],
+    /// Rays that hit in one engine alone.
+    alone: usize,
+}
+
+impl Duel<'_> {
+    fn run(&self, rounds: usize) -> Result<Outcome> {
+        let Self { stage, theirs, pool, rays, query, mode } = *self;
+        let mut host = RayHost::new(stage, rays, query, mode, pool);
+        let mut found = vec![RayAnswer::MISS; rays.len()];
+        let times = take_turns(rounds.max(1), 2, |side| {
+            Ok::<_, Box<dyn Error>>(match side {
+                0 => host.trace(),
+                _ => pool.install(|| theirs.trace(rays, query, mode, &mut found)),
+            })
+        })?;
+        let hits =
+            [host.answers(), &found].map(|answers| answers.iter().filter(|answer| answer.is_hit()).count());
+        let pairs = host.answers().iter().zip(&found);
+        let alone = pairs.filter(|(ours, theirs)| ours.is_hit() != theirs.is_hit()).count();
+        let ratio = Ratio::of(&times[1], &times[0]);
+        Ok(Outcome { ours: median(&times[0]), embree: median(&times[1]), ratio, hits, alone })
+    }
+}
+
+/// Times of Embree's build, and of the fast and the best one, encoding and collapsing included, in turn with all threads.
+fn builds(
+    embree: &Embree,
+    points: &[[f32; 3]],
+    faces: &[[u32; 3]],
+    pool: &ThreadPool,
+    rounds: usize,
+) -> Result<Vec<Vec<Duration>>> {
+    let triangle = |(face, id): (&[u32; 3], u32)| {
+        let [v0, v1, v2] = face.map(|corner| points[corner as usize]);
+        Triangle { v0, id, v1, reserved1: 0, v2, reserved2: 0 }
+    };
+    let triangles: Vec<Triangle> = faces.iter().zip(0..).map(triangle).collect();
+    take_turns(rounds.max(1), 3, |side| match side {
+        0 => Ok(Scene::build(embree, points, faces)?.1),
+        1 => Ok(pool.install(|| build(&triangles, Preset::Fast))?),
+        _ => Ok(pool.install(|| build(&triangles, Preset::Best))?),
+    })
+}
+
+fn build(triangles: &[Triangle], preset: Preset) -> std::result::Result<Duration, BvhError> {
+    let started = Instant::now();
+    let tree = bvh::build(triangles, preset)?;
+    let ordered: Vec<Triangle> = tree.order.par_iter().map(|&index| triangles[index as usize]).collect();
+    let wide = WideBvh::new(&tree.nodes, &ordered);
+    let took = started.elapsed();
+    drop(wide);
+    Ok(took)
+}
