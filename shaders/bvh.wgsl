@@ -118,7 +118,7 @@ fn intersect(ray: Ray, limit: real) -> Hit {
         return best;
     }
     let sight = sight_of(ray);
-    var ahead = whole_tree();
+    var ahead = whole_tree(sight);
     loop {
         steps += WALK_STEPS;
         while ahead.triangles == 0u && !is_done(ahead) {
@@ -147,7 +147,7 @@ fn occluded(ray: Ray, limit: real) -> bool {
     }
     let nothing = Hit(limit, 0u, NONE, 0.0, 0.0, false);
     let sight = sight_of(ray);
-    var ahead = whole_tree();
+    var ahead = whole_tree(sight);
     var found = false;
     loop {
         steps += WALK_STEPS;

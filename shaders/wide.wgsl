@@ -5,7 +5,7 @@
 import package::real::{real, vec3r, vec4r};
 import package::bindings::node_at;
 import package::bvh::Ray;
-import package::constants::BVH_STACK;
+import package::constants::{BVH_STACK, SIBLING_BITS};
 import package::records::WideNode;
 
 // What a ray sees of planes: near and far ones from where they are seen nearest and farthest.
@@ -20,9 +20,9 @@ struct Sight {
 
 // What a ray still has to look at: siblings to be visited and triangles of the last node, then what waits on the stack.
 struct Ahead {
-    // The first of the siblings.
+    // Where the sibling numbered 0 stands, or would.
     first_child: u32,
-    // Byte 0: the ranks of those to be visited, the highest first. Byte 1: the numbers of all.
+    // The ranks of those to be visited, the highest first.
     children: u32,
     first_triangle: u32,
     // By number.
@@ -31,7 +31,7 @@ struct Ahead {
 }
 
 // Declared once: a function's own array would be cleared at every call.
-var<private> bvh_stack: array<vec2u, BVH_STACK>;
+var<private> bvh_stack: array<u32, BVH_STACK>;
 
 fn sight_of(ray: Ray) -> Sight {
     let falls = ray.reciprocal < vec3r(0.0);
@@ -43,33 +43,29 @@ fn sight_of(ray: Ray) -> Sight {
 }
 
 // The root, as the only child of none.
-fn whole_tree() -> Ahead {
-    return Ahead(0u, 1u, 0u, 0u, 0u);
+fn whole_tree(sight: Sight) -> Ahead {
+    return Ahead(0u, 1u << sight.turn, 0u, 0u, 0u);
 }
 
 // Whether no node is left to be visited.
 fn is_done(ahead: Ahead) -> bool {
-    return (ahead.children & 0xffu) == 0u && ahead.waiting == 0u;
+    return ahead.children == 0u && ahead.waiting == 0u;
 }
 
-// Visit the next node: its children within `limit` come first now.
+// Visit the next node: its children within `limit` come first now. Its siblings wait on the stack only if it has some.
 fn visit(sight: Sight, ahead: Ahead, limit: real) -> Ahead {
     var first_child = ahead.first_child;
     var children = ahead.children;
     var waiting = ahead.waiting;
-    if (children & 0xffu) == 0u {
+    if children == 0u {
         waiting--;
-        first_child = bvh_stack[waiting].x;
-        children = bvh_stack[waiting].y;
+        let group = bvh_stack[waiting];
+        first_child = group >> SIBLING_BITS;
+        children = group & ((1u << SIBLING_BITS) - 1u);
     }
-    let rank = firstLeadingBit(children & 0xffu);
-    let number = rank ^ sight.turn;
-    let node = node_at(first_child + countOneBits((children >> 8u) & ((1u << number) - 1u)));
+    let rank = firstLeadingBit(children);
     children ^= 1u << rank;
-    if (children & 0xffu) != 0u {
-        bvh_stack[waiting] = vec2u(first_child, children);
-        waiting++;
-    }
+    let node = node_at(first_child + (rank ^ sight.turn));
     let planes = node.planes;
     let scales = vec3r(bitcast<vec3f>(((vec3u(node.scales) >> vec3u(0u, 8u, 16u)) & vec3u(0xffu)) << vec3u(23u)));
     let lower_a = vec3u(planes[0].x, planes[1].x, planes[2].x);
@@ -82,11 +78,16 @@ fn visit(sight: Sight, ahead: Ahead, limit: real) -> Ahead {
     let four = vec4u(1u) << vec4u(0u, 1u, 2u, 3u);
     let numbers = bits(a, four) | (bits(b, four) << 4u);
     let triangles = bits(a, leaf_bits(node.leaves.x)) | bits(b, leaf_bits(node.leaves.y));
-    let inner = node.scales >> 24u;
-    return Ahead(
-        node.first_child, ranks(numbers & inner, sight.turn) | (inner << 8u),
-        node.first_triangle, triangles, waiting,
-    );
+    let met = ranks(numbers & (node.scales >> 24u), sight.turn);
+    if met != 0u {
+        if children != 0u {
+            bvh_stack[waiting] = (first_child << SIBLING_BITS) | children;
+            waiting++;
+        }
+        first_child = node.first_child;
+        children = met;
+    }
+    return Ahead(first_child, children, node.first_triangle, triangles, waiting);
 }
 
 // Which of four boxes a ray meets within `limit`; a byte each for the planes.

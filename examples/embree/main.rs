@@ -22,7 +22,7 @@ use snellius::bench::rays::{
 };
 use snellius::bench::{Ratio, median, take_turns};
 use snellius::bvh::{self, BvhError, Preset};
-use snellius::cpu::{WideBvh, thread_pool};
+use snellius::cpu::{Cast, WideBvh, thread_pool};
 use snellius::layout::Triangle;
 use snellius::scene;
 
@@ -179,7 +179,8 @@ struct Outcome {
 impl Duel<'_> {
     fn run(&self, rounds: usize) -> Result<Outcome> {
         let Self { stage, theirs, pool, rays, query, mode } = *self;
-        let mut host = RayHost::new(stage, rays, query, mode, pool);
+        let casts: Vec<Cast> = rays.iter().map(Cast::from).collect();
+        let mut host = RayHost::new(stage.world(), stage.tree(), &casts, query, mode, pool);
         let mut found = vec![RayAnswer::MISS; rays.len()];
         let times = take_turns(rounds.max(1), 2, |side| {
             Ok::<_, Box<dyn Error>>(match side {

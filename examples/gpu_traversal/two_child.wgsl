@@ -6,6 +6,12 @@ import package::constants::{BVH_STACK, NONE, PROBE_GROUP};
 import package::probe::{begin, put, put_behind, put_word, take, take3, take_word};
 import package::real::{real, vec3r};
 
+// A ray, and where it ends.
+struct Cast {
+    ray: Ray,
+    limit: real,
+}
+
 // A child that is a leaf: below the mark its triangles, less one, and the first of them.
 const LEAF: u32 = 0x80000000u;
 const COUNT_SHIFT: u32 = 28u;
@@ -24,8 +30,8 @@ fn rays_nearest(@builtin(global_invocation_id) id: vec3u) {
     if !begin(id.x) {
         return;
     }
-    let ray = take_ray();
-    let hit = walk(ray, take(), false);
+    let asked = take_cast();
+    let hit = walk(asked.ray, asked.limit, false);
     put_behind();
     put(select(hit.t, real(0.0), hit.index == NONE));
     put_word(select(hit.id, NONE, hit.index == NONE));
@@ -36,18 +42,18 @@ fn rays_any(@builtin(global_invocation_id) id: vec3u) {
     if !begin(id.x) {
         return;
     }
-    let ray = take_ray();
-    let hit = walk(ray, take(), true);
+    let asked = take_cast();
+    let hit = walk(asked.ray, asked.limit, true);
     put_behind();
     put(real(0.0));
     put_word(select(0u, NONE, hit.index == NONE));
 }
 
-fn take_ray() -> Ray {
+fn take_cast() -> Cast {
     let origin = take3();
-    _ = take_word();
+    let limit = take();
     let direction = take3();
-    return make_ray(origin, direction, NONE);
+    return Cast(make_ray(origin, direction, take_word()), limit);
 }
 
 // The nearest triangle in (0, limit), or any.

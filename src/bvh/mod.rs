@@ -23,7 +23,7 @@ mod tree;
 pub use build::{Bvh, BvhError, Preset, build};
 pub use check::{CheckError, check};
 pub use collapse::{Collapse, LeafRule, Part, WIDTH};
-pub use pack::{PackedBvh, pack};
+pub use pack::{MOST_PACKED, PackedBvh, pack};
 pub use stats::Statistics;
 
 /// Triangles in a leaf, at most.

@@ -3,6 +3,7 @@
 use super::aabb::Aabb;
 use super::collapse::{Collapse, LeafRule, Part, WIDTH};
 use super::slots::by_octant;
+use crate::layout::constants::SIBLING_BITS;
 use crate::layout::{Node, Triangle, WideNode};
 use bytemuck::Zeroable;
 
@@ -13,10 +14,13 @@ const LEAST_EXPONENT: u32 = 27;
 /// Where a leaf's byte holds its number of triangles.
 const COUNT_SHIFT: u32 = 5;
 
+/// Most nodes of a packed tree that adapters reach: their places are part of a word on a ray's stack.
+pub const MOST_PACKED: usize = 1 << (u32::BITS - SIBLING_BITS);
+
 /// A tree of [`WideNode`]s.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PackedBvh {
-    /// The root first.
+    /// The root first. A few places between them are empty: zero.
     pub nodes: Vec<WideNode>,
     /// For each place of the packed tree's triangles, which triangle of the binary tree's stands there.
     pub order: Vec<u32>,
@@ -28,31 +32,67 @@ pub fn pack(nodes: &[Node], triangles: &[Triangle]) -> PackedBvh {
     let collapse = Collapse::new(nodes, LEAVES);
     let mut packed =
         PackedBvh { nodes: vec![WideNode::zeroed()], order: Vec::with_capacity(triangles.len()) };
+    let mut places = Places::after_the_root();
     // Binary nodes, and the places of the wide ones that stand for them.
     let mut left = vec![(0, 0)];
     while let Some((binary, place)) = left.pop() {
         let (parts, count) = collapse.children(binary);
-        let first_child = packed.nodes.len();
-        let mut inner = Vec::new();
-        packed.nodes[place] = node(&parts[..count], first_child as u32, &mut packed.order, &mut inner);
-        packed.nodes.resize(first_child + inner.len(), WideNode::zeroed());
-        left.extend(inner.into_iter().rev().zip((first_child..packed.nodes.len()).rev()));
+        let (mut node, inner) = node(&parts[..count], &mut packed.order);
+        node.first_child = places.take(node.scales >> 24);
+        packed.nodes[place] = node;
+        packed.nodes.resize(places.end(), WideNode::zeroed());
+        let at = |(number, binary): (usize, u32)| (binary, node.first_child as usize + number);
+        left.extend(inner.into_iter().rev().map(at));
     }
     packed
 }
 
-/// The node of these children; appends their triangles, and the binary nodes of the inner ones.
-fn node(parts: &[Part], first_child: u32, order: &mut Vec<u32>, inner: &mut Vec<u32>) -> WideNode {
+/// Which of the last places are taken.
+struct Places {
+    first: u32,
+    /// A bit each from `first` on; what is free before stays empty.
+    taken: u128,
+}
+
+impl Places {
+    /// As many as are looked at for gaps.
+    const WINDOW: u32 = 64;
+
+    fn after_the_root() -> Self {
+        Self { first: 0, taken: 1 }
+    }
+
+    /// Take places for the inner children of these numbers; tells where number 0 is.
+    fn take(&mut self, numbers: u32) -> u32 {
+        let numbers = u128::from(numbers);
+        let gap = (0..=Self::WINDOW).find(|gap| self.taken & numbers << gap == 0).unwrap_or(Self::WINDOW);
+        self.taken |= numbers << gap;
+        let place = self.first + gap;
+        let beyond = (u128::BITS - self.taken.leading_zeros()).saturating_sub(Self::WINDOW);
+        self.taken >>= beyond;
+        self.first += beyond;
+        place
+    }
+
+    /// Behind the last that is taken.
+    fn end(&self) -> usize {
+        (self.first + u128::BITS - self.taken.leading_zeros()) as usize
+    }
+}
+
+/// The node of these children, and the inner ones by number, as binary nodes; appends the triangles of the others.
+fn node(parts: &[Part], order: &mut Vec<u32>) -> (WideNode, Vec<(usize, u32)>) {
     let first_triangle = order.len() as u32;
     let Aabb { lo, hi } =
         parts.iter().fold(Aabb::EMPTY, |aabb, part| aabb.union(&Aabb { lo: part.lo, hi: part.hi }));
     let slots = by_octant(parts);
-    let mut node = WideNode { origin: lo, first_child, first_triangle, ..WideNode::zeroed() };
+    let mut node = WideNode { origin: lo, first_triangle, ..WideNode::zeroed() };
+    let mut inner = Vec::new();
     for (slot, part) in slots.iter().enumerate() {
         let Some(part) = part.map(|index| &parts[index]) else { continue };
         if let Some(binary) = part.inner {
             node.scales |= 1 << (24 + slot);
-            inner.push(binary);
+            inner.push((slot, binary));
         } else {
             let leaf = part.count << COUNT_SHIFT | (order.len() as u32 - first_triangle);
             node.leaves[slot / 4] |= leaf << (slot % 4 * 8);
@@ -65,7 +105,7 @@ fn node(parts: &[Part], first_child: u32, order: &mut Vec<u32>, inner: &mut Vec<
         node.scales |= exponent << (axis * 8);
         node.planes[axis] = planes;
     }
-    node
+    (node, inner)
 }
 
 /// The least exponent by which every box of an axis lies within bytes, and the words of the planes.
@@ -134,14 +174,13 @@ mod tests {
             self.nodes += 1;
             let node = self.packed.nodes[index as usize];
             let inner = node.scales >> 24;
-            let (mut whole, mut first) = (Aabb::EMPTY, 0);
+            let mut whole = Aabb::EMPTY;
             for slot in 0..WIDTH {
                 let leaf = node.leaves[slot / 4] >> (slot % 4 * 8) & 0xff;
                 let (from, count) = (node.first_triangle + (leaf & 31), leaf >> COUNT_SHIFT);
                 let below = if inner >> slot & 1 == 1 {
                     assert_eq!(count, 0);
-                    first += 1;
-                    self.node(node.first_child + first - 1)
+                    self.node(node.first_child + slot as u32)
                 } else {
                     let places = from..from + count;
                     places.fold(Aabb::EMPTY, |aabb, place| aabb.union(&self.triangle(place)))
@@ -185,7 +224,8 @@ mod tests {
         walk.node(0);
         let times = if triangles.len() == 1 { 2 } else { 1 };
         assert!(walk.found.iter().all(|&found| found == times), "{:?}", walk.found);
-        assert_eq!((walk.nodes, packed.order.len()), (packed.nodes.len(), triangles.len() * times as usize));
+        let used = packed.nodes.iter().filter(|node| **node != WideNode::zeroed()).count();
+        assert_eq!((walk.nodes, packed.order.len()), (used, triangles.len() * times as usize));
     }
 
     #[test]
@@ -218,5 +258,18 @@ mod tests {
         let tree = build(&triangles, Preset::Best).unwrap();
         let packed = pack(&tree.nodes, &triangles);
         assert!(packed.nodes.len() * 4 < tree.nodes.len(), "{} of {}", packed.nodes.len(), tree.nodes.len());
+        let empty = packed.nodes.iter().filter(|node| **node == WideNode::zeroed()).count();
+        assert!(empty * 50 < packed.nodes.len(), "{empty} of {} are empty", packed.nodes.len());
+    }
+
+    #[test]
+    fn siblings_fill_the_gaps_of_others() {
+        let mut places = Places::after_the_root();
+        assert_eq!([0b101, 0b101, 0b11].map(|numbers| places.take(numbers)), [1, 2, 5]);
+        assert_eq!(places.end(), 7);
+        for _ in 0..100 {
+            places.take(0xff);
+        }
+        assert_eq!((places.end(), places.take(0)), (807, 743));
     }
 }

@@ -8,8 +8,8 @@ use bytemuck::{NoUninit, Zeroable, bytes_of, cast_slice};
 use super::GpuError;
 use super::context::Context;
 use super::pipeline::{FRAME, SCENE, WRITTEN, bind_group_layout};
-use crate::bvh;
-use crate::layout::{FlatScene, Node, Triangle, View};
+use crate::bvh::{self, MOST_PACKED};
+use crate::layout::{FlatScene, Node, Triangle, View, WideNode};
 
 /// Storage buffers that the host fills.
 const STORED: wgpu::BufferUsages = wgpu::BufferUsages::STORAGE.union(wgpu::BufferUsages::COPY_DST);
@@ -54,6 +54,8 @@ impl SceneBuffers {
         for (what, bytes) in &arrays {
             context.check_size(what, bytes.len() as u64)?;
         }
+        let (tree, bytes) = &arrays[0];
+        context.check_limit(tree, bytes.len() as u64, (MOST_PACKED * size_of::<WideNode>()) as u64)?;
         Ok(Self {
             frame: frame(context, scene)?,
             arrays: arrays.iter().map(|array| upload(context, array)).collect::<Result<_, GpuError>>()?,

@@ -131,7 +131,11 @@ impl Context {
 
     /// Whether one buffer can hold that much and a shader see it.
     pub(super) fn check_size(&self, what: &'static str, needed: u64) -> Result<(), GpuError> {
-        let limit = self.largest_binding();
+        self.check_limit(what, needed, self.largest_binding())
+    }
+
+    /// Whether it is within a limit.
+    pub(super) fn check_limit(&self, what: &'static str, needed: u64, limit: u64) -> Result<(), GpuError> {
         if needed <= limit {
             return Ok(());
         }

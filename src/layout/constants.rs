@@ -45,6 +45,8 @@ shared! {
     MAX_MEDIA: u32 = 32;
     /// Nodes on a path from the root of the BVH; the traversal stack holds one fewer.
     MAX_BVH_DEPTH: u32 = 64;
+    /// Bits of a word on an adapter's traversal stack that tell which siblings are to be visited; above them, where they stand.
+    SIBLING_BITS: u32 = 8;
     /// Side of the square block of pixels that one workgroup traces.
     BLOCK: u32 = 8;
     /// Invocations of one workgroup of a probe.

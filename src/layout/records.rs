@@ -35,7 +35,8 @@ pub struct Node {
 /// incoherent ray traversal on GPUs through compressed wide BVHs", section 3.2).
 ///
 /// A plane lies at `origin` + byte · scale. A child's number tells on which side it lies along each axis, so that a ray's
-/// octant gives the order of visits. Inner children stand in a row by number, and so do the leaves' triangles.
+/// octant gives the order of visits. An inner child stands as many places behind `first_child` as its number says; what is
+/// between may be another node's children, or nothing. The leaves' triangles stand in a row by number.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct WideNode {
@@ -43,7 +44,7 @@ pub struct WideNode {
     pub origin: [f32; 3],
     /// Bytes: the scales' exponents on x, y and z, as f32 has them; a bit for each inner child.
     pub scales: u32,
-    /// Index of the first inner child.
+    /// Where the child numbered 0 stands, or would if it were an inner one; has `32 - SIBLING_BITS` bits.
     pub first_child: u32,
     /// Index of the leaves' first triangle.
     pub first_triangle: u32,

@@ -16,7 +16,7 @@ const ALLOWED: &[(&str, &str, usize, &str)] = &[
     ("texture", "8", 1, "bits of a channel"),
     ("texture", "16", 1, "bits of two channels"),
     ("whitted", "8u", 1, "the back side in a hash"),
-    ("wide", "8u", 4, "bits of a byte"),
+    ("wide", "8u", 2, "bits of a byte"),
     ("wide", "16u", 2, "bits of two bytes"),
 ];
 

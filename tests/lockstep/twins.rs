@@ -19,7 +19,7 @@ const ALONE: &[(&str, &str)] = &[
     ("probe_plain", "src/selftest/lockstep/plain.rs is its twin"),
     ("probe_rays", "src/selftest/rays.rs is its twin"),
     ("probe_scene", "src/selftest/lockstep/scene.rs is its twin"),
-    ("rays", "src/bench/rays/measure.rs is its twin"),
+    ("rays", "src/bench/rays/host.rs is its twin"),
     ("records", "src/layout holds the records"),
     ("render", "the entry point: src/cpu is its twin"),
     ("sift", "the entry points between rounds: src/cpu is their twin"),

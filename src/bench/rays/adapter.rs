@@ -2,13 +2,14 @@
 
 use std::time::Duration;
 
-use super::{Query, RayAnswer, RayRecord, RayStage};
+use super::{Query, RayAnswer, RayStage};
 use crate::bench::BenchError;
+use crate::cpu::Cast;
 use crate::gpu::{AdapterReport, GpuOptions, Prober, Records, SOURCES, Source, Variant};
 use crate::layout::{FlatScene, Float, Plan, Settings, View};
 
 /// Words of a ray, then of its answer.
-const RAY: usize = size_of::<RayRecord>() / 4;
+const RAY: usize = size_of::<Cast>() / 4;
 const STRIDE: usize = RAY + size_of::<RayAnswer>() / 4;
 
 /// A mesh on a Vulkan adapter: one invocation a ray. In strict float where the adapter has it.
@@ -56,7 +57,7 @@ impl RayAdapter {
     ///
     /// # Errors
     /// [`BenchError::Gpu`].
-    pub fn load(&self, rays: &[RayRecord]) -> Result<Records, BenchError> {
+    pub fn load(&self, rays: &[Cast]) -> Result<Records, BenchError> {
         let mut words = vec![0; rays.len() * STRIDE];
         for (words, ray) in words.chunks_exact_mut(STRIDE).zip(rays) {
             words[..RAY].copy_from_slice(bytemuck::cast_slice(std::slice::from_ref(ray)));

@@ -6,10 +6,10 @@ use rayon::ThreadPool;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::{RayAnswer, RayRecord, RayStage};
-use crate::cpu::Cast;
-use crate::kernel::Vec3;
+use super::RayAnswer;
+use crate::cpu::{Cast, WideBvh};
 use crate::kernel::bvh::{Hit, make_ray};
+use crate::kernel::{Vec3, World};
 use crate::layout::constants::NONE;
 
 /// Rays that a thread takes at a time.
@@ -39,8 +39,9 @@ pub enum Mode {
 
 /// A set of rays, ready to be traced by the CPU with some threads.
 pub struct RayHost<'a> {
-    stage: &'a RayStage,
-    rays: &'a [RayRecord],
+    world: World<'a>,
+    tree: &'a WideBvh,
+    rays: &'a [Cast],
     query: Query,
     mode: Mode,
     pool: &'a ThreadPool,
@@ -48,26 +49,27 @@ pub struct RayHost<'a> {
 }
 
 impl<'a> RayHost<'a> {
-    /// Make room for the answers.
+    /// Make room for the answers. The tree is that of the world's triangles.
     #[must_use]
     pub fn new(
-        stage: &'a RayStage,
-        rays: &'a [RayRecord],
+        world: World<'a>,
+        tree: &'a WideBvh,
+        rays: &'a [Cast],
         query: Query,
         mode: Mode,
         pool: &'a ThreadPool,
     ) -> Self {
-        Self { stage, rays, query, mode, pool, found: vec![RayAnswer::MISS; rays.len()] }
+        Self { world, tree, rays, query, mode, pool, found: vec![RayAnswer::MISS; rays.len()] }
     }
 
     /// Trace them, and tell how long that took.
     pub fn trace(&mut self) -> Duration {
-        let Self { stage, rays, query, mode, pool, found } = self;
+        let Self { world, tree, rays, query, mode, pool, found } = self;
         let chunks = || {
             let pairs = rays.par_chunks(CHUNK).zip(found.par_chunks_mut(CHUNK));
             pairs.for_each(|(rays, found)| match mode {
-                Mode::Single => one_by_one(stage, rays, *query, found),
-                Mode::Coherent => as_stream(stage, rays, *query, found),
+                Mode::Single => one_by_one(world, tree, rays, *query, found),
+                Mode::Coherent => as_stream(tree, rays, *query, found),
             });
         };
         let started = Instant::now();
@@ -91,31 +93,27 @@ impl<'a> RayHost<'a> {
     }
 }
 
-fn one_by_one(stage: &RayStage, rays: &[RayRecord], query: Query, found: &mut [RayAnswer]) {
-    let world = stage.world();
-    for (ray, found) in rays.iter().zip(found) {
-        let made = make_ray(&world, Vec3::load(ray.origin), Vec3::load(ray.direction), NONE);
+fn one_by_one(world: &World<'_>, tree: &WideBvh, rays: &[Cast], query: Query, found: &mut [RayAnswer]) {
+    for (cast, found) in rays.iter().zip(found) {
+        let ray = make_ray(world, Vec3::load(cast.origin), Vec3::load(cast.direction), cast.origin_face);
         *found = match query {
-            Query::Nearest => RayAnswer::nearest(&stage.wide.intersect(&made, ray.tmax)),
-            Query::Any => RayAnswer::any(stage.wide.occluded(&made, ray.tmax)),
+            Query::Nearest => RayAnswer::nearest(&tree.intersect(&ray, cast.limit)),
+            Query::Any => RayAnswer::any(tree.occluded(&ray, cast.limit)),
         };
     }
 }
 
-fn as_stream(stage: &RayStage, rays: &[RayRecord], query: Query, found: &mut [RayAnswer]) {
-    let mut casts = [Cast { origin: [0.0; 3], limit: 0.0, direction: [0.0; 3], origin_face: NONE }; STREAM];
+fn as_stream(tree: &WideBvh, rays: &[Cast], query: Query, found: &mut [RayAnswer]) {
     let mut hits = [Hit { t: 0.0, id: NONE, index: NONE, b1: 0.0, b2: 0.0, front: false }; STREAM];
     let mut blocked = [false; STREAM];
     for (rays, found) in rays.chunks(STREAM).zip(found.chunks_mut(STREAM)) {
-        let casts = &mut casts[..rays.len()];
-        casts.iter_mut().zip(rays).for_each(|(cast, ray)| *cast = ray.into());
         match query {
             Query::Nearest => {
-                stage.wide.intersect_stream(casts, &mut hits[..rays.len()]);
+                tree.intersect_stream(rays, &mut hits[..rays.len()]);
                 found.iter_mut().zip(&hits).for_each(|(found, hit)| *found = RayAnswer::nearest(hit));
             }
             Query::Any => {
-                stage.wide.occluded_stream(casts, &mut blocked[..rays.len()]);
+                tree.occluded_stream(rays, &mut blocked[..rays.len()]);
                 found.iter_mut().zip(&blocked).for_each(|(found, &blocked)| *found = RayAnswer::any(blocked));
             }
         }

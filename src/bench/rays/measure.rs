@@ -8,11 +8,10 @@ use serde::Serialize;
 
 use super::{Mode, Query, RayAdapter, RayAnswer, RayHost, RayRecord, RayStage};
 use crate::bench::{BenchError, median, take_turns};
-use crate::cpu::thread_pool;
+use crate::cpu::{Cast, thread_pool};
 use crate::gpu::Records;
 use crate::kernel::Vec3;
 use crate::kernel::bvh::{intersect, make_ray, occluded};
-use crate::layout::constants::NONE;
 
 /// One set on one device. Every answer had the bits of the scalar kernel's.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -55,16 +54,17 @@ pub fn measure(
     query: Query,
     rounds: usize,
 ) -> Result<Measured, BenchError> {
-    let answers = judge(stage, rays, query);
+    let rays: Vec<Cast> = rays.iter().map(Cast::from).collect();
+    let answers = judge(stage, &rays, query);
     let pools = [thread_pool(1)?, thread_pool(0)?];
     let pools = &pools[..if pools[1].current_num_threads() == 1 { 1 } else { 2 }];
     let mut sides = Vec::new();
     for mode in [Mode::Single, Mode::Coherent] {
-        let host = |pool| RayHost::new(stage, rays, query, mode, pool);
+        let host = |pool| RayHost::new(stage.world(), stage.tree(), &rays, query, mode, pool);
         sides.extend(pools.iter().map(|pool| Side::Cpu(host(pool))));
     }
     for adapter in adapters {
-        let records = adapter.load(rays)?;
+        let records = adapter.load(&rays)?;
         sides.push(Side::Gpu { adapter, records, query });
     }
     let mut faults = Vec::new();
@@ -96,13 +96,13 @@ pub fn measure(
 }
 
 /// The scalar kernel's answers.
-fn judge(stage: &RayStage, rays: &[RayRecord], query: Query) -> Vec<RayAnswer> {
+fn judge(stage: &RayStage, rays: &[Cast], query: Query) -> Vec<RayAnswer> {
     let world = stage.world();
-    let answer = |ray: &RayRecord| {
-        let made = make_ray(&world, Vec3::load(ray.origin), Vec3::load(ray.direction), NONE);
+    let answer = |cast: &Cast| {
+        let ray = make_ray(&world, Vec3::load(cast.origin), Vec3::load(cast.direction), cast.origin_face);
         match query {
-            Query::Nearest => RayAnswer::nearest(&intersect(&world, &made, ray.tmax)),
-            Query::Any => RayAnswer::any(occluded(&world, &made, ray.tmax)),
+            Query::Nearest => RayAnswer::nearest(&intersect(&world, &ray, cast.limit)),
+            Query::Any => RayAnswer::any(occluded(&world, &ray, cast.limit)),
         }
     };
     rays.par_iter().map(answer).collect()
@@ -171,6 +171,7 @@ mod tests {
     use super::*;
     use crate::bench::rays::{Pinhole, RaySets};
     use crate::bvh::Preset;
+    use crate::layout::constants::NONE;
 
     /// A roof over a floor, as a mesh.
     fn stage() -> RayStage {
@@ -201,11 +202,11 @@ mod tests {
     #[test]
     fn faces_are_numbered_as_the_file_has_them() {
         let stage = stage();
-        let down = |x: f32, z: f32| RayRecord {
+        let down = |x: f32, z: f32| Cast {
             origin: [x, 9.0, z],
-            tmin: 0.0,
+            limit: 99.0,
             direction: [0.0, -1.0, 0.0],
-            tmax: 99.0,
+            origin_face: NONE,
         };
         let rays = [down(3.0, -3.5), down(-3.0, 3.5), down(0.0, 0.0), down(9.0, 0.0)];
         let answers = judge(&stage, &rays, Query::Nearest);

@@ -116,8 +116,15 @@ impl RayStage {
         &self.view
     }
 
+    /// The tree that the CPU's rays go through.
+    #[must_use]
+    pub fn tree(&self) -> &WideBvh {
+        &self.wide
+    }
+
     /// What the scalar kernel traces in.
-    pub(super) fn world(&self) -> World<'_> {
+    #[must_use]
+    pub fn world(&self) -> World<'_> {
         World {
             scene: &self.scene,
             view: &self.view,

@@ -1,13 +1,16 @@
 //! As many rays as there are lanes, side by side.
 
+use bytemuck::{Pod, Zeroable};
+
 use super::layout::WIDTH;
 use super::ray::Spread;
 use super::simd::Simd;
 use super::tree::Tree;
 use crate::layout::constants::{LEAST_DIRECTION, MOST_REACH, NONE, ORIGIN_PADDING, SLAB_PADDING};
 
-/// A ray of a stream.
-#[derive(Debug, Clone, Copy)]
+/// A ray as the kernel is asked for it.
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+#[repr(C)]
 pub struct Cast {
     /// Where it starts.
     pub origin: [f32; 3],
