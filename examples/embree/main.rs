@@ -1,4 +1,4 @@
-//! Snellius beside Embree: the same rays through the same mesh in one process, in turn, on one thread; and the build.
+//! Snellius beside Embree: the same rays through the same mesh in one process, in turn, on the same threads; and the build.
 //!
 //! `cargo run --release --example embree -- MESH.obj [MESH.obj …]` loads Embree 3 as it runs (Debian: libembree3-3). The rays
 //! are those of `snellius bench --rays`, or of `--rays DIR`, a folder of MESH.{P,R,D,S}.rays. Embree is robust, of medium
@@ -9,6 +9,7 @@
 mod engine;
 mod functions;
 
+use std::convert::Infallible;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -74,38 +75,46 @@ fn run(arguments: &Arguments) -> Result<bool> {
     let embree = Embree::load(&arguments.library)?;
     let pools = [thread_pool(1)?, thread_pool(0)?];
     println!("Embree {}, robust, medium quality; medians of {} rounds\n", embree.version(), arguments.rounds);
+    let rays = trace_all(arguments, &embree, &pools)?;
+    let builds = build_all(arguments, &embree, &pools[1])?;
+    Ok(rays && builds)
+}
+
+/// Print the rays' table; tells whether all is as promised.
+fn trace_all(arguments: &Arguments, embree: &Embree, pools: &[ThreadPool; 2]) -> Result<bool> {
+    let threads = pools[1].current_num_threads();
     println!(
-        "| mesh | rays | of them | mode | Snellius, Mrays/s | Embree, Mrays/s | ratio (95 %) | hits | Embree's |"
+        "| mesh | rays | of them | mode | Snellius, Mrays/s | Embree, Mrays/s | ratio (95 %) | hits | Embree's | {threads} threads ÷ 1 | Embree's |"
     );
-    println!("|---|---|--:|---|--:|--:|--:|--:|--:|");
+    println!("|---|---|--:|---|--:|--:|--:|--:|--:|--:|--:|");
     let mut holds = true;
     for path in &arguments.meshes {
         let mesh = Mesh::load(path)?;
         let stage = RayStage::load(path, Preset::Best, Pinhole::default())?;
-        let (theirs, _) = Scene::build(&embree, &mesh.points, &mesh.triangles)?;
+        let (theirs, _) = Scene::build(embree, &mesh.points, &mesh.triangles)?;
         for (letter, rays, query) in sets(arguments, path, &stage)? {
             for mode in [Mode::Single, Mode::Coherent] {
-                let duel = Duel { stage: &stage, theirs: &theirs, pool: &pools[0], rays: &rays, query, mode };
-                let Outcome { ours, embree, ratio, hits, alone } = duel.run(arguments.rounds)?;
-                let (rate, of) = (|time: Duration| rays.len() as f64 / time.as_secs_f64() / 1e6, rays.len());
-                let (ours, embree, Ratio { median, low, high }) = (rate(ours), rate(embree), ratio);
-                let [name, mode_name] =
-                    [&*mesh.name, if mode == Mode::Single { "single" } else { "stream, packets" }];
-                println!(
-                    "| {name} | {letter} | {of} | {mode_name} | {ours:.2} | {embree:.2} | {median:.2} ({low:.2}–{high:.2}) | {} | {} |",
-                    hits[0], hits[1]
-                );
+                let duel = Duel { stage: &stage, theirs: &theirs, pools, rays: &rays, query, mode };
+                let outcome = duel.run(arguments.rounds)?;
+                println!("| {} | {letter} {}", mesh.name, outcome.row(rays.len(), mode));
                 let promised = mode == Mode::Single || matches!(letter, "P" | "S");
-                holds &= alone <= rays.len() / ALONE && (!promised || median >= arguments.least);
+                holds &= outcome.alone <= rays.len() / ALONE;
+                holds &= !promised || outcome.ratio.median >= arguments.least;
             }
         }
     }
+    Ok(holds)
+}
+
+/// Print the builds' table; tells whether all is as promised.
+fn build_all(arguments: &Arguments, embree: &Embree, pool: &ThreadPool) -> Result<bool> {
     println!("\n| mesh | triangles | Embree, ms | fast, ms | of Embree's | best, ms | of Embree's |");
     println!("|---|--:|--:|--:|--:|--:|--:|");
+    let mut holds = true;
     for path in &arguments.meshes {
         let mesh = Mesh::load(path)?;
         let faces = &mesh.triangles[..arguments.first.min(mesh.triangles.len())];
-        let times = builds(&embree, &mesh.points, faces, &pools[1], arguments.rounds)?;
+        let times = builds(embree, &mesh.points, faces, pool, arguments.rounds)?;
         let [theirs, fast, best] = [0, 1, 2].map(|side: usize| median(&times[side]).as_secs_f64() * 1e3);
         let [fast_ratio, best_ratio] = [1, 2].map(|side: usize| Ratio::of(&times[side], &times[0]).median);
         let (name, of) = (&mesh.name, faces.len());
@@ -155,45 +164,65 @@ fn sets(
         .collect()
 }
 
-/// A set of rays for both engines, on the same thread.
+/// A set of rays for both engines, on the same threads: one, and all.
 struct Duel<'a> {
     stage: &'a RayStage,
     theirs: &'a Scene<'a>,
-    pool: &'a ThreadPool,
+    pools: &'a [ThreadPool; 2],
     rays: &'a [RayRecord],
     query: Query,
     mode: Mode,
 }
 
-/// What came of it.
+/// What came of it, of Snellius and of Embree.
 struct Outcome {
-    ours: Duration,
-    embree: Duration,
-    /// Of their time to ours.
+    /// With one thread.
+    times: [Duration; 2],
+    /// Of Embree's time to ours, with one thread.
     ratio: Ratio,
     hits: [usize; 2],
     /// Rays that hit in one engine alone.
     alone: usize,
+    /// Of the time with one thread to that with all.
+    scaling: [Ratio; 2],
 }
 
 impl Duel<'_> {
     fn run(&self, rounds: usize) -> Result<Outcome> {
-        let Self { stage, theirs, pool, rays, query, mode } = *self;
+        let Self { stage, theirs, pools, rays, query, mode } = *self;
         let casts: Vec<Cast> = rays.iter().map(Cast::from).collect();
-        let mut host = RayHost::new(stage.world(), stage.tree(), &casts, query, mode, pool);
+        let host = |pool| RayHost::new(stage.world(), stage.tree(), &casts, query, mode, pool);
+        let mut hosts = pools.each_ref().map(host);
         let mut found = vec![RayAnswer::MISS; rays.len()];
-        let times = take_turns(rounds.max(1), 2, |side| {
-            Ok::<_, Box<dyn Error>>(match side {
-                0 => host.trace(),
-                _ => pool.install(|| theirs.trace(rays, query, mode, &mut found)),
+        let times = take_turns(rounds.max(1), 4, |side| {
+            Ok::<_, Infallible>(match side {
+                0 | 1 => hosts[side].trace(),
+                _ => theirs.trace(rays, query, mode, &pools[side - 2], &mut found),
             })
         })?;
-        let hits =
-            [host.answers(), &found].map(|answers| answers.iter().filter(|answer| answer.is_hit()).count());
-        let pairs = host.answers().iter().zip(&found);
-        let alone = pairs.filter(|(ours, theirs)| ours.is_hit() != theirs.is_hit()).count();
-        let ratio = Ratio::of(&times[1], &times[0]);
-        Ok(Outcome { ours: median(&times[0]), embree: median(&times[1]), ratio, hits, alone })
+        let ours = hosts[0].answers();
+        let hits = [ours, &found].map(|answers| answers.iter().filter(|answer| answer.is_hit()).count());
+        Ok(Outcome {
+            times: [median(&times[0]), median(&times[2])],
+            ratio: Ratio::of(&times[2], &times[0]),
+            hits,
+            alone: ours.iter().zip(&found).filter(|(ours, theirs)| ours.is_hit() != theirs.is_hit()).count(),
+            scaling: [Ratio::of(&times[0], &times[1]), Ratio::of(&times[2], &times[3])],
+        })
+    }
+}
+
+impl Outcome {
+    /// The end of a row.
+    fn row(&self, rays: usize, mode: Mode) -> String {
+        let mode = if mode == Mode::Single { "single" } else { "stream, packets" };
+        let [ours, theirs] = self.times.map(|time| rays as f64 / time.as_secs_f64() / 1e6);
+        let Ratio { median, low, high } = self.ratio;
+        let [hits, found] = self.hits;
+        let [scaling, other] = self.scaling.map(|ratio| ratio.median);
+        format!(
+            "| {rays} | {mode} | {ours:.2} | {theirs:.2} | {median:.2} ({low:.2}–{high:.2}) | {hits} | {found} | {scaling:.2} | {other:.2} |"
+        )
     }
 }
 

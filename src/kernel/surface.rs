@@ -33,6 +33,8 @@ pub struct Surface<R> {
 }
 
 /// Everything that shading needs at a hit.
+// Inlined: the walk of a shadow ray through interfaces then leaves out what it does not read.
+#[inline(always)]
 pub fn resolve<R: Real>(world: &World<impl Simulation>, ray: &Ray<R>, hit: &Hit<R>) -> Surface<R> {
     let tri = &world.scene.triangles[hit.index as usize];
     let face = &world.scene.attributes[hit.id as usize];

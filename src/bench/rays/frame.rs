@@ -88,3 +88,51 @@ impl Simulation for Noting<'_> {
         occluded(world, ray, limit)
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::flatten::{flatten, view};
+    use crate::layout::constants::{RAY_PRIMARY, RAY_REFLECTION, RAY_REFRACTION, RAY_SHADOW};
+    use crate::layout::{Effects, Settings};
+    use crate::scene::Scene;
+
+    /// A scene's rays, and how many of each kind the kernel counts.
+    fn noted(scene: &str) -> (FrameRays, [usize; 4]) {
+        let scene = Scene::load(&Path::new("scenes").join(scene)).unwrap();
+        let flat = flatten(&scene).unwrap().scene;
+        let settings = Settings { depth: 6, samples: 1, ..Settings::default() };
+        let view = view(&scene.camera, &flat, [40, 30], None, &settings);
+        let effects = Effects::of(&flat, &settings).plan(&settings).effects;
+        let world = World { scene: &flat, view: &view, intersector: Intersector::Watertight, effects };
+        let mut counted = [0; 4];
+        let mut stack = Vec::new();
+        for pixel in morton_order(40, 30) {
+            let (mut texel, mut aov) = (Texel::default(), Aov::default());
+            let rays = trace_pixel::<f32>(&world, &mut stack, pixel, 0..1, &mut texel, &mut aov, None);
+            counted.iter_mut().zip(rays).for_each(|(sum, rays)| *sum += rays as usize);
+        }
+        (FrameRays::of(&flat, &view, effects), counted)
+    }
+
+    #[test]
+    fn every_ray_that_the_kernel_counts_is_noted_by_kind() {
+        let (rays, counted) = noted("opaque.toml");
+        let count = |kind: u32| counted[kind as usize];
+        assert_eq!(rays.primary.len(), 1200);
+        assert_eq!((rays.bounced.len(), count(RAY_PRIMARY)), (0, 1200));
+        assert_eq!((rays.shadow.len(), rays.tinted.len()), (count(RAY_SHADOW), 0));
+        assert!(count(RAY_SHADOW) > 0);
+    }
+
+    #[test]
+    fn a_shadow_ray_through_glass_is_several() {
+        let (rays, counted) = noted("whitted.toml");
+        let count = |kind: u32| counted[kind as usize];
+        assert_eq!(rays.bounced.len(), count(RAY_REFLECTION) + count(RAY_REFRACTION));
+        assert!(rays.tinted.len() > count(RAY_SHADOW) && rays.shadow.is_empty());
+    }
+}
