@@ -30,10 +30,12 @@ impl FrameRays {
         let log = Mutex::new(Self::default());
         let noting = Noting { effects, log: &log };
         let world = World { scene, view, intersector: Intersector::Watertight, effects: noting };
+        let [left, top, width, height] = view.crop;
         let mut stack = Vec::new();
-        for [column, row] in morton_order(view.width, view.height) {
+        for [column, row] in morton_order(width, height) {
             let (mut texel, mut aov) = (Texel::default(), Aov::default());
-            trace_pixel::<f32>(&world, &mut stack, [column, row], 0..1, &mut texel, &mut aov, None);
+            let pixel = [left + column, top + row];
+            trace_pixel::<f32>(&world, &mut stack, pixel, 0..1, &mut texel, &mut aov, None);
         }
         log.into_inner().unwrap_or_else(PoisonError::into_inner)
     }
@@ -101,11 +103,11 @@ mod tests {
     use crate::scene::Scene;
 
     /// A scene's rays, and how many of each kind the kernel counts.
-    fn noted(scene: &str) -> (FrameRays, [usize; 4]) {
+    fn noted(scene: &str, crop: Option<[u32; 4]>) -> (FrameRays, [usize; 4]) {
         let scene = Scene::load(&Path::new("scenes").join(scene)).unwrap();
         let flat = flatten(&scene).unwrap().scene;
         let settings = Settings { depth: 6, samples: 1, ..Settings::default() };
-        let view = view(&scene.camera, &flat, [40, 30], None, &settings);
+        let view = view(&scene.camera, &flat, [40, 30], crop, &settings);
         let effects = Effects::of(&flat, &settings).plan(&settings).effects;
         let world = World { scene: &flat, view: &view, intersector: Intersector::Watertight, effects };
         let mut counted = [0; 4];
@@ -120,7 +122,7 @@ mod tests {
 
     #[test]
     fn every_ray_that_the_kernel_counts_is_noted_by_kind() {
-        let (rays, counted) = noted("opaque.toml");
+        let (rays, counted) = noted("opaque.toml", None);
         let count = |kind: u32| counted[kind as usize];
         assert_eq!(rays.primary.len(), 1200);
         assert_eq!((rays.bounced.len(), count(RAY_PRIMARY)), (0, 1200));
@@ -129,8 +131,17 @@ mod tests {
     }
 
     #[test]
+    fn a_part_of_the_picture_has_its_own_rays() {
+        let (whole, _) = noted("opaque.toml", None);
+        let (top, _) = noted("opaque.toml", Some([0, 0, 40, 10]));
+        let (rest, _) = noted("opaque.toml", Some([0, 10, 40, 20]));
+        assert_eq!((top.primary.len(), rest.primary.len()), (400, 800));
+        assert_eq!(top.shadow.len() + rest.shadow.len(), whole.shadow.len());
+    }
+
+    #[test]
     fn a_shadow_ray_through_glass_is_several() {
-        let (rays, counted) = noted("whitted.toml");
+        let (rays, counted) = noted("whitted.toml", None);
         let count = |kind: u32| counted[kind as usize];
         assert_eq!(rays.bounced.len(), count(RAY_REFLECTION) + count(RAY_REFRACTION));
         assert!(rays.tinted.len() > count(RAY_SHADOW) && rays.shadow.is_empty());
