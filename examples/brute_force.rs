@@ -5,6 +5,9 @@
 //! rounding to f32 decides: each is listed. Anything else is a disagreement, and the exit code is 1. A minute on two cores
 //! for 10⁶ rays and 10⁴ triangles.
 
+#[path = "shared/verdict.rs"]
+mod verdict;
+
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -15,6 +18,8 @@ use rayon::prelude::*;
 use snellius::bench::rays::{RayAnswer, RayRecord, read_answers, read_rays};
 use snellius::layout::constants::NONE;
 use snellius::scene::Scene;
+
+use crate::verdict::verdict;
 
 /// Compare dumped hits with brute force in f64
 #[derive(Debug, Parser)]
@@ -32,14 +37,7 @@ struct Arguments {
 }
 
 fn main() -> ExitCode {
-    match run(&Arguments::parse()) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::from(1),
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::from(2)
-        }
-    }
+    verdict(run(&Arguments::parse()))
 }
 
 fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {

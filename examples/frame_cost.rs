@@ -5,6 +5,9 @@
 //! *ceiling* is the sum over the kinds of their rays at their own raw rate. The exit code is 1 if the frame takes more than
 //! `--most` times as long.
 
+#[path = "shared/verdict.rs"]
+mod verdict;
+
 use std::error::Error;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -20,7 +23,9 @@ use snellius::kernel::World;
 use snellius::layout::{EffectSet, Effects, Intersector, Settings, View};
 use snellius::scene::Scene;
 
-/// Rows that are traced at a time: a tenth of a second, within which the machine is as fast for the frame as for its rays.
+use crate::verdict::verdict;
+
+/// Rows that are traced at a time: half a second, in which the machine hardly changes, and few ends at which a thread waits.
 const BAND: u32 = 144;
 
 /// Kinds of rays.
@@ -50,14 +55,7 @@ struct Arguments {
 }
 
 fn main() -> ExitCode {
-    match run(&Arguments::parse()) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::from(1),
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::from(2)
-        }
-    }
+    verdict(run(&Arguments::parse()))
 }
 
 fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {

@@ -8,6 +8,8 @@
 
 mod expected;
 mod theory;
+#[path = "../shared/verdict.rs"]
+mod verdict;
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -18,6 +20,8 @@ use clap::Parser;
 
 use snellius::gpu::{AdapterReport, adapters};
 use snellius::study::{Config, Knob, Watch, run, write_outputs};
+
+use crate::verdict::verdict;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
@@ -42,14 +46,7 @@ struct Arguments {
 const SHOWN: [&str; 4] = ["pareto.svg", "truncation.svg", "sampling.svg", "study.csv"];
 
 fn main() -> ExitCode {
-    match make(&Arguments::parse()) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::from(1),
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::from(2)
-        }
-    }
+    verdict(make(&Arguments::parse()))
 }
 
 /// Write the page; returns whether every closed form is met.

@@ -7,6 +7,8 @@
 //! code is 1 where a threshold saves less than half of the rays, 2 where a scene cannot be traced.
 
 mod curve;
+#[path = "../shared/verdict.rs"]
+mod verdict;
 
 use std::error::Error;
 use std::path::PathBuf;
@@ -20,6 +22,7 @@ use snellius::layout::{FlatScene, Precision, Settings};
 use snellius::scene::Scene;
 
 use curve::{Point, rays_for};
+use verdict::verdict;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
@@ -50,14 +53,7 @@ struct Arguments {
 }
 
 fn main() -> ExitCode {
-    match run(&Arguments::parse()) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::from(1),
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::from(2)
-        }
-    }
+    verdict(run(&Arguments::parse()))
 }
 
 /// Print the table row by row; returns whether every threshold saves what it must.

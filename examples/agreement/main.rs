@@ -7,6 +7,8 @@
 
 mod measure;
 mod table;
+#[path = "../shared/verdict.rs"]
+mod verdict;
 
 use std::error::Error;
 use std::path::PathBuf;
@@ -15,6 +17,7 @@ use std::process::ExitCode;
 use clap::Parser;
 
 use measure::{Row, Target};
+use verdict::verdict;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
@@ -38,14 +41,7 @@ struct Arguments {
 }
 
 fn main() -> ExitCode {
-    match run(Arguments::parse()) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::from(1),
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::from(2)
-        }
-    }
+    verdict(run(Arguments::parse()))
 }
 
 /// Print the table row by row; returns whether every required figure holds.

@@ -8,26 +8,28 @@
 
 mod engine;
 mod functions;
+#[path = "../shared/verdict.rs"]
+mod verdict;
 
 use std::convert::Infallible;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use clap::Parser;
 use rayon::ThreadPool;
-use rayon::prelude::*;
 use snellius::bench::rays::{
-    Mode, Pinhole, Query, RayAnswer, RayHost, RayRecord, RaySets, RayStage, SIDE, read_rays,
+    Mode, Pinhole, Query, RayAnswer, RayHost, RayRecord, RaySets, RayStage, SIDE, Trees, read_rays,
 };
 use snellius::bench::{Ratio, median, take_turns};
-use snellius::bvh::{self, BvhError, Preset};
-use snellius::cpu::{Cast, WideBvh, thread_pool};
+use snellius::bvh::Preset;
+use snellius::cpu::{Cast, thread_pool};
 use snellius::layout::Triangle;
 use snellius::scene;
 
 use crate::engine::{Embree, Scene};
+use crate::verdict::verdict;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
@@ -61,40 +63,38 @@ struct Arguments {
 }
 
 fn main() -> ExitCode {
-    match run(&Arguments::parse()) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::from(1),
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::from(2)
-        }
-    }
+    verdict(run(&Arguments::parse()))
 }
 
 fn run(arguments: &Arguments) -> Result<bool> {
     let embree = Embree::load(&arguments.library)?;
     let pools = [thread_pool(1)?, thread_pool(0)?];
     println!("Embree {}, robust, medium quality; medians of {} rounds\n", embree.version(), arguments.rounds);
-    let rays = trace_all(arguments, &embree, &pools)?;
-    let builds = build_all(arguments, &embree, &pools[1])?;
+    let meshes: Vec<Mesh> = arguments.meshes.iter().map(|path| Mesh::load(path)).collect::<Result<_>>()?;
+    let rays = trace_all(arguments, &embree, &meshes, &pools)?;
+    let builds = build_all(arguments, &embree, &meshes, &pools[1])?;
     Ok(rays && builds)
 }
 
 /// Print the rays' table; tells whether all is as promised.
-fn trace_all(arguments: &Arguments, embree: &Embree, pools: &[ThreadPool; 2]) -> Result<bool> {
+fn trace_all(
+    arguments: &Arguments,
+    embree: &Embree,
+    meshes: &[Mesh],
+    pools: &[ThreadPool; 2],
+) -> Result<bool> {
     let threads = pools[1].current_num_threads();
     println!(
         "| mesh | rays | of them | mode | Snellius, Mrays/s | Embree, Mrays/s | ratio (95 %) | hits | Embree's | {threads} threads ÷ 1 | Embree's |"
     );
     println!("|---|---|--:|---|--:|--:|--:|--:|--:|--:|--:|");
     let mut holds = true;
-    for path in &arguments.meshes {
-        let mesh = Mesh::load(path)?;
+    for (path, mesh) in arguments.meshes.iter().zip(meshes) {
         let stage = RayStage::load(path, Preset::Best, Pinhole::default())?;
         let (theirs, _) = Scene::build(embree, &mesh.points, &mesh.triangles)?;
-        for (letter, rays, query) in sets(arguments, path, &stage)? {
+        for (letter, rays, query) in sets(arguments.rays.as_deref(), mesh, &stage)?.by_letter() {
             for mode in [Mode::Single, Mode::Coherent] {
-                let duel = Duel { stage: &stage, theirs: &theirs, pools, rays: &rays, query, mode };
+                let duel = Duel { stage: &stage, theirs: &theirs, pools, rays, query, mode };
                 let outcome = duel.run(arguments.rounds)?;
                 println!("| {} | {letter} {}", mesh.name, outcome.row(rays.len(), mode));
                 let promised = mode == Mode::Single || matches!(letter, "P" | "S");
@@ -107,12 +107,11 @@ fn trace_all(arguments: &Arguments, embree: &Embree, pools: &[ThreadPool; 2]) ->
 }
 
 /// Print the builds' table; tells whether all is as promised.
-fn build_all(arguments: &Arguments, embree: &Embree, pool: &ThreadPool) -> Result<bool> {
+fn build_all(arguments: &Arguments, embree: &Embree, meshes: &[Mesh], pool: &ThreadPool) -> Result<bool> {
     println!("\n| mesh | triangles | Embree, ms | fast, ms | of Embree's | best, ms | of Embree's |");
     println!("|---|--:|--:|--:|--:|--:|--:|");
     let mut holds = true;
-    for path in &arguments.meshes {
-        let mesh = Mesh::load(path)?;
+    for mesh in meshes {
         let faces = &mesh.triangles[..arguments.first.min(mesh.triangles.len())];
         let times = builds(embree, &mesh.points, faces, pool, arguments.rounds)?;
         let [theirs, fast, best] = [0, 1, 2].map(|side: usize| median(&times[side]).as_secs_f64() * 1e3);
@@ -147,21 +146,11 @@ impl Mesh {
     }
 }
 
-/// The sets of rays by their letters.
-fn sets(
-    arguments: &Arguments,
-    mesh: &Path,
-    stage: &RayStage,
-) -> Result<Vec<(&'static str, Vec<RayRecord>, Query)>> {
-    let Some(folder) = &arguments.rays else {
-        let own = RaySets::of(stage, SIDE);
-        return Ok(own.by_letter().map(|(letter, rays, query)| (letter, rays.to_vec(), query)).into());
-    };
-    let stem = mesh.file_stem().unwrap_or_default().to_string_lossy();
-    [("P", Query::Nearest), ("R", Query::Nearest), ("D", Query::Nearest), ("S", Query::Any)]
-        .into_iter()
-        .map(|(letter, query)| Ok((letter, read_rays(&folder.join(format!("{stem}.{letter}.rays")))?, query)))
-        .collect()
+/// The rays of a folder, or those of the mesh's own view.
+fn sets(folder: Option<&Path>, mesh: &Mesh, stage: &RayStage) -> Result<RaySets> {
+    let Some(folder) = folder else { return Ok(RaySets::of(stage, SIDE)) };
+    let read = |letter: &str| read_rays(&folder.join(format!("{}.{letter}.rays", mesh.name)));
+    Ok(RaySets { primary: read("P")?, reflected: read("R")?, diffuse: read("D")?, shadow: read("S")? })
 }
 
 /// A set of rays for both engines, on the same threads: one, and all.
@@ -241,17 +230,7 @@ fn builds(
     let triangles: Vec<Triangle> = faces.iter().zip(0..).map(triangle).collect();
     take_turns(rounds.max(1), 3, |side| match side {
         0 => Ok(Scene::build(embree, points, faces)?.1),
-        1 => Ok(pool.install(|| build(&triangles, Preset::Fast))?),
-        _ => Ok(pool.install(|| build(&triangles, Preset::Best))?),
+        1 => Ok(pool.install(|| Trees::build(&triangles, Preset::Fast))?.time),
+        _ => Ok(pool.install(|| Trees::build(&triangles, Preset::Best))?.time),
     })
-}
-
-fn build(triangles: &[Triangle], preset: Preset) -> std::result::Result<Duration, BvhError> {
-    let started = Instant::now();
-    let tree = bvh::build(triangles, preset)?;
-    let ordered: Vec<Triangle> = tree.order.par_iter().map(|&index| triangles[index as usize]).collect();
-    let wide = WideBvh::new(&tree.nodes, &ordered);
-    let took = started.elapsed();
-    drop(wide);
-    Ok(took)
 }

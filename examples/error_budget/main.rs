@@ -9,6 +9,8 @@
 
 mod rows;
 mod stage;
+#[path = "../shared/verdict.rs"]
+mod verdict;
 
 use std::error::Error;
 use std::process::ExitCode;
@@ -20,6 +22,7 @@ use snellius::layout::{Precision, Settings};
 use snellius::study::{Choice, Goal, Request, choose};
 
 use stage::Stage;
+use verdict::verdict;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
@@ -53,14 +56,7 @@ struct Arguments {
 }
 
 fn main() -> ExitCode {
-    match run(&Arguments::parse()) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::from(1),
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::from(2)
-        }
-    }
+    verdict(run(&Arguments::parse()))
 }
 
 /// Print both tables row by row; returns whether every budget is kept.

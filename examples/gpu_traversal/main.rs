@@ -5,6 +5,9 @@
 //! one adapter, in turn, after every answer of both was compared; it prints Markdown. The exit code is 1 if two answers differ
 //! in a bit, or the rays of a frame are traced less than `--least` times as fast.
 
+#[path = "../shared/verdict.rs"]
+mod verdict;
+
 use std::error::Error;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -18,6 +21,8 @@ use snellius::flatten::{flatten, view};
 use snellius::gpu::{AdapterReport, SOURCES, Source, adapters, sources_in};
 use snellius::layout::{Corner, Effects, FlatScene, Node, Settings, View};
 use snellius::scene::Scene;
+
+use crate::verdict::verdict;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
@@ -51,14 +56,7 @@ struct Arguments {
 }
 
 fn main() -> ExitCode {
-    match run(&Arguments::parse()) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::from(1),
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::from(2)
-        }
-    }
+    verdict(run(&Arguments::parse()))
 }
 
 fn run(arguments: &Arguments) -> Result<bool> {

@@ -1,4 +1,4 @@
-//! A mesh on a Vulkan adapter, for rays.
+//! A scene on a Vulkan adapter, for rays.
 
 use std::time::Duration;
 
@@ -12,7 +12,7 @@ use crate::layout::{FlatScene, Float, Plan, Settings, View};
 const RAY: usize = size_of::<Cast>() / 4;
 const STRIDE: usize = RAY + size_of::<RayAnswer>() / 4;
 
-/// A mesh on a Vulkan adapter: one invocation a ray. In strict float where the adapter has it.
+/// A scene on a Vulkan adapter: one invocation a ray. In strict float where the adapter has it.
 pub struct RayAdapter {
     prober: Prober,
     variant: Variant,

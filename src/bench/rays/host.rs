@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::RayAnswer;
 use crate::cpu::{Cast, WideBvh};
-use crate::kernel::bvh::{Hit, make_ray};
+use crate::kernel::bvh::{Hit, Ray, make_ray};
 use crate::kernel::{Vec3, World};
 use crate::layout::constants::NONE;
 
@@ -95,12 +95,18 @@ impl<'a> RayHost<'a> {
 
 fn one_by_one(world: &World<'_>, tree: &WideBvh, rays: &[Cast], query: Query, found: &mut [RayAnswer]) {
     for (cast, found) in rays.iter().zip(found) {
-        let ray = make_ray(world, Vec3::load(cast.origin), Vec3::load(cast.direction), cast.origin_face);
+        let ray = prepared(world, cast);
         *found = match query {
             Query::Nearest => RayAnswer::nearest(&tree.intersect(&ray, cast.limit)),
             Query::Any => RayAnswer::any(tree.occluded(&ray, cast.limit)),
         };
     }
+}
+
+/// The kernel's ray.
+#[inline(always)]
+pub(super) fn prepared(world: &World<'_>, cast: &Cast) -> Ray<f32> {
+    make_ray(world, Vec3::load(cast.origin), Vec3::load(cast.direction), cast.origin_face)
 }
 
 fn as_stream(tree: &WideBvh, rays: &[Cast], query: Query, found: &mut [RayAnswer]) {

@@ -6,12 +6,12 @@ use std::time::Duration;
 use rayon::prelude::*;
 use serde::Serialize;
 
+use super::host::prepared;
 use super::{Mode, Query, RayAdapter, RayAnswer, RayHost, RayRecord, RayStage};
 use crate::bench::{BenchError, median, take_turns};
 use crate::cpu::{Cast, thread_pool};
 use crate::gpu::Records;
-use crate::kernel::Vec3;
-use crate::kernel::bvh::{intersect, make_ray, occluded};
+use crate::kernel::bvh::{intersect, occluded};
 
 /// One set on one device. Every answer had the bits of the scalar kernel's.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -99,7 +99,7 @@ pub fn measure(
 fn judge(stage: &RayStage, rays: &[Cast], query: Query) -> Vec<RayAnswer> {
     let world = stage.world();
     let answer = |cast: &Cast| {
-        let ray = make_ray(&world, Vec3::load(cast.origin), Vec3::load(cast.direction), cast.origin_face);
+        let ray = prepared(&world, cast);
         match query {
             Query::Nearest => RayAnswer::nearest(&intersect(&world, &ray, cast.limit)),
             Query::Any => RayAnswer::any(occluded(&world, &ray, cast.limit)),

@@ -18,4 +18,4 @@ pub use host::{Mode, Query, RayHost};
 pub use measure::{Measured, RayRun, measure};
 pub use record::{RayAnswer, RayError, RayRecord, read_answers, read_rays, write_answers, write_rays};
 pub use sets::{RaySets, SIDE};
-pub use stage::{Pinhole, RayStage};
+pub use stage::{Pinhole, RayStage, Trees};

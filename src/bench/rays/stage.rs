@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::RayError;
 use crate::bench::BenchError;
-use crate::bvh::{self, Preset};
+use crate::bvh::{self, Bvh, BvhError, Preset};
 use crate::cpu::WideBvh;
 use crate::kernel::World;
 use crate::layout::{EffectSet, FlatScene, Intersector, Triangle, View};
@@ -17,6 +17,33 @@ use crate::scene::Scene;
 
 /// Farthest coordinate of a mesh, as of a scene.
 const MOST_COORDINATE: f32 = (1_u64 << 60) as f32;
+
+/// The binary tree of the kernel and the wide one of the CPU over the same triangles.
+pub struct Trees {
+    /// The kernel's.
+    pub binary: Bvh,
+    /// In the order of the trees.
+    pub triangles: Vec<Triangle>,
+    /// The CPU's.
+    pub wide: WideBvh,
+    /// How long both took to build, encoding and collapsing included.
+    pub time: Duration,
+}
+
+impl Trees {
+    /// Build both with all threads.
+    ///
+    /// # Errors
+    /// [`BvhError`].
+    pub fn build(triangles: &[Triangle], preset: Preset) -> Result<Self, BvhError> {
+        let started = Instant::now();
+        let binary = bvh::build(triangles, preset)?;
+        let triangles: Vec<Triangle> =
+            binary.order.par_iter().map(|&index| triangles[index as usize]).collect();
+        let wide = WideBvh::new(&binary.nodes, &triangles);
+        Ok(Self { time: started.elapsed(), binary, triangles, wide })
+    }
+}
 
 /// What of the view is not the mesh's default.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -56,12 +83,8 @@ impl RayStage {
         if !triangles.iter().flat_map(|t| [t.v0, t.v1, t.v2]).flatten().all(|x| x.abs() <= MOST_COORDINATE) {
             return Err(RayError::Range.into());
         }
-        let started = Instant::now();
-        let tree = bvh::build(&triangles, preset).map_err(RayError::Bvh)?;
-        let triangles: Vec<Triangle> =
-            tree.order.par_iter().map(|&index| triangles[index as usize]).collect();
-        let wide = WideBvh::new(&tree.nodes, &triangles);
-        let build = started.elapsed();
+        let Trees { binary: tree, triangles, wide, time: build } =
+            Trees::build(&triangles, preset).map_err(RayError::Bvh)?;
         let root = &tree.nodes[0];
         let bounds = [
             std::array::from_fn(|axis| root.a_lo[axis].min(root.b_lo[axis])),

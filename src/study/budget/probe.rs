@@ -57,15 +57,14 @@ impl<'a> Probe<'a> {
     /// of a small picture more is probed than it has pixels.
     pub(super) fn new(request: &Request<'a>, metric: Metric) -> Result<Self, StudyError> {
         let mut request = *request;
-        if !request.keeps_samples {
-            request.base = Settings { samples: 1, adaptive: None, ..request.base };
-        }
-        let base = request.base;
-        let size = if request.keeps_samples {
-            size_of(request.size, base.samples)
+        let (size, share) = if request.keeps_samples {
+            let size = size_of(request.size, request.base.samples);
+            (size, if size == request.size { 1.0 } else { 0.0 })
         } else {
-            shape_of(request.size, PROBE)
+            request.base = Settings { samples: 1, adaptive: None, ..request.base };
+            (shape_of(request.size, PROBE), 0.0)
         };
+        let base = request.base;
         let mut renderer = CpuRenderer::new(request.scene, 0)?;
         let mut shoot = |settings: &Settings| shoot(&mut renderer, &request, size, settings);
         let coarsest =
@@ -78,7 +77,7 @@ impl<'a> Probe<'a> {
             return Err(StudyError::TooSlow { seconds: limit.as_secs_f64() });
         };
         Ok(Self {
-            share: if request.keeps_samples && size == request.size { 1.0 } else { 0.0 },
+            share,
             request,
             size,
             renderer,
