@@ -4,12 +4,12 @@
 // Nodes and triangles, which rays fetch most, lie there as vectors of four words: drivers without gathering loads fetch
 // vector by vector, invocation by invocation, and need as long for three words, or one, as for four.
 
-import package::records::{Attribute, Corner, Film, Frame, Material, Triangle, WideNode};
+import package::records::{Attribute, Film, Frame, Material, Triangle, WideNode};
 
 @group(0) @binding(0) var<storage, read> nodes: array<array<vec4u, 5>>;
 @group(0) @binding(1) var<storage, read> triangles: array<array<vec4u, 3>>;
 @group(0) @binding(2) var<storage, read> attributes: array<Attribute>;
-@group(0) @binding(3) var<storage, read> corners: array<Corner>;
+@group(0) @binding(3) var<storage, read> uvs: array<vec2f>;
 @group(0) @binding(4) var<storage, read> materials: array<Material>;
 @group(0) @binding(5) var<storage, read> texels: array<u32>;
 @group(0) @binding(6) var<storage, read> frame: Frame;

@@ -18,12 +18,9 @@ struct Triangle {
 
 struct Attribute {
     normal: vec3f, material: u32,
-    body: u32, other: u32, corners: u32, reserved: u32,
-}
-
-struct Corner {
-    normal: vec3f, u: f32,
-    reserved: vec3f, v: f32,
+    normal0: vec3f, body: u32,
+    normal1: vec3f, other: u32,
+    normal2: vec3f, uvs: u32,
 }
 
 struct Material {

@@ -3,7 +3,7 @@
 import package::real::{greatest, least, real, vec3r};
 import package::math::{dot3, max3, unit3};
 import package::bvh::{Hit, Ray};
-import package::bindings::{attributes, corners, triangle_at};
+import package::bindings::{attributes, triangle_at, uvs};
 import package::constants::{EDGE_ROUNDOFFS, MOST_EDGE_WEIGHT, NONE, ROUNDOFF, SPAWN_ROUNDOFFS};
 
 // A point on a face, as the ray that found it sees it.
@@ -50,18 +50,21 @@ fn resolve(ray: Ray, hit: Hit) -> Surface {
         point, offset, face_normal, face_normal, point, array<real, 2>(0.0, 0.0), face.material, face.body, hit.id,
         hit.front,
     );
-    // Smooth normals and texture coordinates.
-    @if(smooth_normals) if face.corners != NONE {
-        let c0 = corners[face.corners];
-        let c1 = corners[face.corners + 1u];
-        let c2 = corners[face.corners + 2u];
+    // Texture coordinates.
+    @if(textures) if face.uvs != NONE {
+        let uv0 = uvs[face.uvs];
+        let uv1 = uvs[face.uvs + 1u];
+        let uv2 = uvs[face.uvs + 2u];
         surface.uv = array<real, 2>(
-            real(c0.u) * b0 + real(c1.u) * hit.b1 + real(c2.u) * hit.b2,
-            real(c0.v) * b0 + real(c1.v) * hit.b1 + real(c2.v) * hit.b2,
+            real(uv0.x) * b0 + real(uv1.x) * hit.b1 + real(uv2.x) * hit.b2,
+            real(uv0.y) * b0 + real(uv1.y) * hit.b1 + real(uv2.y) * hit.b2,
         );
-        let n0 = corner_normal(c0.normal, hit.front);
-        let n1 = corner_normal(c1.normal, hit.front);
-        let n2 = corner_normal(c2.normal, hit.front);
+    }
+    // Smooth normals.
+    @if(smooth_normals) if any(face.normal0 != vec3f()) {
+        let n0 = corner_normal(face.normal0, hit.front);
+        let n1 = corner_normal(face.normal1, hit.front);
+        let n2 = corner_normal(face.normal2, hit.front);
         let smoothed = unit3(n0 * b0 + n1 * hit.b1 + n2 * hit.b2);
         surface.normal = turn_towards(smoothed, -ray.direction);
         surface.shadow_point =

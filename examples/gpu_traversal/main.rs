@@ -19,7 +19,7 @@ use snellius::bench::{Ratio, median, take_turns};
 use snellius::bvh::pack;
 use snellius::flatten::{flatten, view};
 use snellius::gpu::{AdapterReport, SOURCES, Source, adapters, sources_in};
-use snellius::layout::{Corner, Effects, FlatScene, Node, Settings, View};
+use snellius::layout::{Effects, FlatScene, Node, Settings, View};
 use snellius::scene::Scene;
 
 use crate::verdict::verdict;
@@ -112,13 +112,13 @@ fn row(rays: usize, plain: &[Duration], kept: &[Duration]) -> String {
     format!("| {rays} | {plain:.2} | {kept:.2} | {ratio:.2} ({low:.2}–{high:.2}) |")
 }
 
-/// The plain way: its nodes lie where the shading corners of a scene are.
+/// The plain way: its nodes lie where the texture coordinates of a scene are.
 fn plain(adapter: &AdapterReport, scene: &FlatScene, view: &View) -> Result<RayAdapter> {
     let two_child: Source<'static> = ("rays", include_str!("two_child.wgsl"));
     let others = SOURCES.iter().filter(|(stem, _)| *stem != "rays").copied();
     let sources: Vec<Source<'static>> = others.chain([two_child]).collect();
     let nodes = nodes(scene);
-    let scene = FlatScene { corners: bytemuck::cast_slice::<Node, Corner>(&nodes).into(), ..scene.clone() };
+    let scene = FlatScene { uvs: bytemuck::cast_slice::<Node, [f32; 2]>(&nodes).into(), ..scene.clone() };
     Ok(RayAdapter::with_sources(adapter, &scene, view, sources.leak())?)
 }
 

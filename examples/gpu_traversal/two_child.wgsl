@@ -19,7 +19,7 @@ const FIRST: u32 = 0x0fffffffu;
 // Nothing is left.
 const DONE: u32 = 0xffffffffu;
 
-// Lower corner and first, upper corner and count, of both children; in place of the shading corners, which rays do not need.
+// Lower corner and first, upper corner and count, of both children; in place of the texture coordinates, which rays do not need.
 @group(0) @binding(3) var<storage, read> two_child: array<array<vec4u, 4>>;
 
 var<private> waiting: array<u32, BVH_STACK>;

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::faces::corners;
 use super::number::widen3;
 use crate::layout::constants::{ROUNDOFF_F32, SPAWN_ROUNDOFFS};
-use crate::layout::{Attribute, Corner, FlatScene, Node, Triangle};
+use crate::layout::{FlatScene, Node, Triangle};
 
 /// The least distance at which a point light may find itself from a shaded point, in f64.
 ///
@@ -45,16 +45,13 @@ pub(super) fn greatest_lift(scene: &FlatScene) -> f64 {
 /// The greatest height of a corner's tangent plane above the triangle. A height is linear over the triangle, so
 /// that it is greatest at a corner; the starting point is a mean of three lifted points.
 fn lift(scene: &FlatScene, triangle: &Triangle) -> f64 {
-    let first = scene.attributes[triangle.id as usize].corners;
-    if first == Attribute::NONE {
-        return 0.0;
-    }
-    let corners_of: &[Corner] = &scene.corners[first as usize..first as usize + 3];
+    let face = &scene.attributes[triangle.id as usize];
     let points = corners(triangle);
-    // From the back the normals are negated: heights of either sign count.
-    let heights = points.iter().zip(corners_of).flat_map(|(&corner, shading)| {
-        points.iter().map(move |&point| (point - corner).dot(widen3(shading.normal)).abs())
-    });
+    // From the back the normals are negated: heights of either sign count. Those of a flat face are zero.
+    let heights =
+        points.iter().zip([face.normal0, face.normal1, face.normal2]).flat_map(|(&corner, normal)| {
+            points.iter().map(move |&point| (point - corner).dot(widen3(normal)).abs())
+        });
     heights.fold(0.0, f64::max)
 }
 

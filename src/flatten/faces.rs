@@ -7,21 +7,21 @@ use super::materials::Rows;
 use super::normals::{CornerNormals, face_normal};
 use super::number::{narrow, narrow3, widen3};
 use super::place::Placed;
-use crate::layout::{Attribute, Corner, Triangle};
+use crate::layout::{Attribute, Triangle};
 use crate::scene;
 
-/// Triangles in the order of their ids, with attributes and corners.
+/// Triangles in the order of their ids, with attributes and texture coordinates.
 #[derive(Default)]
 pub(super) struct Faces {
     pub(super) triangles: Vec<Triangle>,
     pub(super) attributes: Vec<Attribute>,
-    pub(super) corners: Vec<Corner>,
+    pub(super) uvs: Vec<[f32; 2]>,
 }
 
 impl Faces {
     /// Append every copy of a model, and tell how many of its triangles have no area in f32 and are left out.
     ///
-    /// The copies share their corners, which say nothing about places.
+    /// The copies share their texture coordinates, which say nothing about places.
     pub(super) fn append(
         &mut self,
         placed: &Placed,
@@ -50,12 +50,12 @@ impl Faces {
         self.attributes.push(Attribute {
             normal: [0.0, 1.0, 0.0],
             other: Attribute::NONE,
-            corners: Attribute::NONE,
+            uvs: Attribute::NONE,
             ..Attribute::zeroed()
         });
     }
 
-    /// What all copies of a triangle have in common; appends its corners where it needs any.
+    /// What all copies of a triangle have in common; appends its texture coordinates where it needs any.
     fn template(
         &mut self,
         placed: &Placed,
@@ -67,34 +67,24 @@ impl Faces {
         let id = placed.model.materials[triangle.material as usize];
         let textured =
             rows.is_textured(id) && triangle.uvs.iter().all(|&index| index != scene::Triangle::NONE);
-        let corners = if textured || normals.is_some() {
-            self.append_corners(placed, triangle, normals)
-        } else {
-            Attribute::NONE
-        };
+        let uvs = if textured { self.append_uvs(placed, triangle) } else { Attribute::NONE };
+        let [normal0, normal1, normal2] = normals.unwrap_or_default();
         Attribute {
             normal: [0.0; 3],
             material: rows.row(id),
+            normal0,
             body,
+            normal1,
             other: Attribute::NONE,
-            corners,
-            reserved: 0,
+            normal2,
+            uvs,
         }
     }
 
-    fn append_corners(
-        &mut self,
-        placed: &Placed,
-        triangle: &scene::Triangle,
-        normals: Option<CornerNormals>,
-    ) -> u32 {
-        let first = self.corners.len() as u32;
-        let normals = normals.unwrap_or_else(|| [narrow3(face_normal(placed.corners(triangle))); 3]);
-        for (normal, uv) in normals.into_iter().zip(triangle.uvs) {
-            // A triangle without coordinates takes the texture's lower left corner.
-            let uv = placed.model.mesh.uvs.get(uv as usize).copied().unwrap_or_default();
-            self.corners.push(Corner { normal, u: narrow(uv.x), reserved: [0.0; 3], v: narrow(uv.y) });
-        }
+    fn append_uvs(&mut self, placed: &Placed, triangle: &scene::Triangle) -> u32 {
+        let first = self.uvs.len() as u32;
+        let uvs = triangle.uvs.map(|index| placed.model.mesh.uvs[index as usize]);
+        self.uvs.extend(uvs.map(|uv| [narrow(uv.x), narrow(uv.y)]));
         first
     }
 

@@ -96,7 +96,7 @@ pub fn flatten(scene: &Scene) -> Result<Flattened, SceneError> {
         nodes: tree.nodes.into(),
         triangles: triangles.into(),
         attributes: faces.attributes.into(),
-        corners: faces.corners.into(),
+        uvs: faces.uvs.into(),
         materials,
         material_names,
         lights,
@@ -275,7 +275,7 @@ mod tests {
     }
 
     #[test]
-    fn a_textured_face_has_corners_and_copies_share_them() {
+    fn a_textured_face_has_coordinates_and_copies_share_them() {
         let mut scene = empty_scene();
         let pixels = Pixels::Srgb8(vec![[9, 8, 7]]);
         scene.textures.push(Texture { path: "dot.png".into(), width: 1, height: 1, pixels });
@@ -286,12 +286,9 @@ mod tests {
         let repeat = crate::scene::Repeat { count: [4, 1, 1], step: DVec3::X * 2.0 };
         scene.models.push(Model { repeat, ..model("square", square, STONE) });
         let flat = flatten(&scene).unwrap().scene;
-        assert_eq!((flat.attributes.len(), flat.corners.len()), (4, 3));
-        assert!(flat.attributes.iter().all(|face| face.corners == 0));
-        assert_eq!(
-            (flat.corners[1].u, flat.corners[1].v, flat.corners[1].normal),
-            (1.0, 0.0, [0.0, 0.0, 1.0])
-        );
+        assert_eq!(flat.uvs[..], [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
+        assert_eq!(flat.attributes.len(), 4);
+        assert!(flat.attributes.iter().all(|face| face.uvs == 0 && !face.is_smooth()));
         assert_eq!((flat.materials[1].texture, flat.texels[256]), (256, 0x0007_0809));
     }
 

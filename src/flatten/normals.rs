@@ -134,14 +134,13 @@ impl Fans {
 mod tests {
     use super::*;
     use crate::flatten::samples::{STONE, cube, flattened, model};
-    use crate::layout::{Attribute, Corner};
     use crate::scene::{Mesh, Model};
 
-    fn corners(mesh: Mesh, normals: Normals) -> Vec<Corner> {
+    /// Three for each smooth face.
+    fn corner_normals(mesh: Mesh, normals: Normals) -> Vec<[f32; 3]> {
         let flat = flattened(vec![Model { normals, ..model("it", mesh, STONE) }]).unwrap().scene;
-        let smooth = flat.attributes.iter().filter(|face| face.corners != Attribute::NONE).count();
-        assert_eq!(flat.corners.len(), smooth * 3);
-        flat.corners.to_vec()
+        let smooth = flat.attributes.iter().filter(|face| face.is_smooth());
+        smooth.flat_map(|face| [face.normal0, face.normal1, face.normal2]).collect()
     }
 
     /// A cube whose every face has the given normal, by face.
@@ -154,13 +153,13 @@ mod tests {
 
     #[test]
     fn a_cube_stays_flat_below_its_crease_and_is_rounded_above() {
-        assert!(corners(cube(1.0), Normals::Crease(30.0)).is_empty());
-        assert!(corners(cube(1.0), Normals::Crease(90.0)).is_empty());
-        let rounded = corners(cube(1.0), Normals::Crease(120.0));
+        assert!(corner_normals(cube(1.0), Normals::Crease(30.0)).is_empty());
+        assert!(corner_normals(cube(1.0), Normals::Crease(90.0)).is_empty());
+        let rounded = corner_normals(cube(1.0), Normals::Crease(120.0));
         assert_eq!(rounded.len(), 36);
         // Weighted by angle, the diagonals of the faces do not show: normals point along the corners.
         let third = (1.0_f32 / 3.0).sqrt();
-        for component in rounded.iter().flat_map(|corner| corner.normal) {
+        for component in rounded.iter().flatten() {
             assert!((component.abs() - third).abs() < 1e-6, "{component}");
         }
     }
@@ -168,15 +167,15 @@ mod tests {
     #[test]
     fn the_normals_of_the_file_are_kept_where_they_can_be_used() {
         let slanted = DVec3::new(0.5, 0.5, 0.5).normalize();
-        assert_eq!(corners(with_normals(|_| slanted), Normals::File).len(), 36);
-        assert!(corners(with_normals(|_| slanted), Normals::Flat).is_empty());
-        assert!(corners(cube(1.0), Normals::File).is_empty());
+        assert_eq!(corner_normals(with_normals(|_| slanted), Normals::File).len(), 36);
+        assert!(corner_normals(with_normals(|_| slanted), Normals::Flat).is_empty());
+        assert!(corner_normals(cube(1.0), Normals::File).is_empty());
     }
 
     #[test]
     fn normals_of_no_length_or_no_number_fall_back_to_the_face() {
         for broken in [DVec3::ZERO, DVec3::NAN, DVec3::INFINITY] {
-            assert!(corners(with_normals(|_| broken), Normals::File).is_empty());
+            assert!(corner_normals(with_normals(|_| broken), Normals::File).is_empty());
         }
     }
 
@@ -187,7 +186,7 @@ mod tests {
         let turned = Model { world_from_object: quarter, normals: Normals::File, ..model("it", mesh, STONE) };
         let flat = flattened(vec![turned]).unwrap().scene;
         for face in &*flat.attributes {
-            let corner = flat.corners[face.corners as usize].normal;
+            let corner = face.normal0;
             assert!(corner.iter().zip(face.normal).map(|(a, b)| a * b).sum::<f32>() > 0.0);
             assert!(corner[0].abs() > 0.9, "{corner:?}");
         }

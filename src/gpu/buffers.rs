@@ -47,7 +47,7 @@ impl SceneBuffers {
             ("the tree of boxes", bytes(&packed.nodes)),
             ("the triangles", bytes(&triangles)),
             ("the triangles' attributes", bytes(&scene.attributes)),
-            ("the triangles' corners", bytes(&scene.corners)),
+            ("the texture coordinates", bytes(&scene.uvs)),
             materials(scene),
             ("the textures and the background", bytes(&scene.texels)),
         ];

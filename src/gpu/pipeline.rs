@@ -8,7 +8,7 @@ use super::spirv::write_spirv;
 use super::{GpuError, Variant};
 use crate::layout::{Float, Precision};
 
-/// The scene's arrays: nodes, triangles, attributes, corners, materials, texels from binding 0 on.
+/// The scene's arrays: nodes, triangles, attributes, texture coordinates, materials, texels from binding 0 on.
 pub(super) const SCENE: u32 = 6;
 /// Binding of the [`View`](crate::layout::View) with the lights behind it.
 pub(super) const FRAME: u32 = SCENE;

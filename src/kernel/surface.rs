@@ -1,7 +1,7 @@
 //! Stop 4 of 7: surface. Twin of `shaders/surface.wgsl`.
 
+use crate::layout::Effect;
 use crate::layout::constants::{EDGE_ROUNDOFFS, MOST_EDGE_WEIGHT, NONE, SPAWN_ROUNDOFFS};
-use crate::layout::{Corner, Effect};
 
 use super::bvh::{Hit, Ray};
 use super::math::{dot3, max3, unit3};
@@ -36,7 +36,7 @@ pub struct Surface<R> {
 // Inlined: the walk of a shadow ray through interfaces then leaves out what it does not read.
 #[inline(always)]
 pub fn resolve<R: Real>(world: &World<impl Simulation>, ray: &Ray<R>, hit: &Hit<R>) -> Surface<R> {
-    let tri = &world.scene.triangles[hit.index as usize];
+    let tri = world.effects.triangle_at::<R>(world, hit.index);
     let face = &world.scene.attributes[hit.id as usize];
     let (v0, v1, v2) = (Vec3::load(tri.v0), Vec3::load(tri.v1), Vec3::load(tri.v2));
     let b0 = R::ONE - hit.b1 - hit.b2;
@@ -70,18 +70,18 @@ pub fn resolve<R: Real>(world: &World<impl Simulation>, ray: &Ray<R>, hit: &Hit<
         id: hit.id,
         front: hit.front,
     };
-    // Smooth normals and texture coordinates.
-    if face.corners != NONE && world.simulates(Effect::SmoothNormals) {
-        let c0 = &world.scene.corners[face.corners as usize];
-        let c1 = &world.scene.corners[face.corners as usize + 1];
-        let c2 = &world.scene.corners[face.corners as usize + 2];
-        surface.uv = [
-            R::real(c0.u) * b0 + R::real(c1.u) * hit.b1 + R::real(c2.u) * hit.b2,
-            R::real(c0.v) * b0 + R::real(c1.v) * hit.b1 + R::real(c2.v) * hit.b2,
-        ];
-        let n0 = corner_normal(c0, hit.front);
-        let n1 = corner_normal(c1, hit.front);
-        let n2 = corner_normal(c2, hit.front);
+    // Texture coordinates.
+    if face.uvs != NONE && world.simulates(Effect::Textures) {
+        let first = face.uvs as usize;
+        let [[u0, v0], [u1, v1], [u2, v2]] =
+            [0, 1, 2].map(|corner| world.scene.uvs[first + corner].map(R::real));
+        surface.uv = [u0 * b0 + u1 * hit.b1 + u2 * hit.b2, v0 * b0 + v1 * hit.b1 + v2 * hit.b2];
+    }
+    // Smooth normals.
+    if face.is_smooth() && world.simulates(Effect::SmoothNormals) {
+        let n0 = corner_normal(face.normal0, hit.front);
+        let n1 = corner_normal(face.normal1, hit.front);
+        let n2 = corner_normal(face.normal2, hit.front);
         let smooth = unit3(n0 * b0 + n1 * hit.b1 + n2 * hit.b2);
         surface.normal = turn_towards(smooth, -ray.direction);
         surface.shadow_point =
@@ -97,8 +97,8 @@ pub fn off_edge<R: Real>(point: Vec3<R>, corner: Vec3<R>, weight: R, margin: R) 
 }
 
 /// A corner's shading normal on the ray's side.
-pub fn corner_normal<R: Real>(corner: &Corner, front: bool) -> Vec3<R> {
-    let n = Vec3::load(corner.normal);
+pub fn corner_normal<R: Real>(normal: [f32; 3], front: bool) -> Vec3<R> {
+    let n = Vec3::load(normal);
     if front { n } else { -n }
 }
 

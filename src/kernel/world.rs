@@ -2,7 +2,7 @@
 
 use super::bvh::{self, Hit, Ray};
 use super::real::Real;
-use crate::layout::{Effect, EffectSet, FlatScene, Intersector, TreeNode, View};
+use crate::layout::{Effect, EffectSet, FlatScene, Intersector, TreeNode, Triangle, View};
 
 /// Which effects a kernel simulates: known as it is compiled, or asked as it runs.
 ///
@@ -21,9 +21,14 @@ pub trait Simulation: Copy + Sync {
     /// Hears of a ray, in the order of tracing.
     fn record(self, _node: TreeNode) {}
 
-    /// [`bvh::intersect`], or a faster way to the same bits.
+    /// [`bvh::intersect`], or a faster way to the same bits; `index` is for [`triangle_at`](Self::triangle_at) alone.
     fn intersect<R: Real>(self, world: &World<Self>, ray: &Ray<R>, limit: R) -> Hit<R> {
         bvh::intersect(world, ray, limit)
+    }
+
+    /// The triangle that [`intersect`](Self::intersect) in the same reals calls by this index.
+    fn triangle_at<R: Real>(self, world: &World<Self>, index: u32) -> Triangle {
+        world.scene.triangles[index as usize]
     }
 
     /// [`bvh::occluded`], or a faster way to the same answer.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Attribute, Corner, Light, Material, Node, Triangle};
+use super::{Attribute, Light, Material, Node, Triangle};
 
 /// A body, for tables and messages.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,8 +40,8 @@ pub struct FlatScene {
     pub triangles: Arc<[Triangle]>,
     /// One for each primitive id.
     pub attributes: Arc<[Attribute]>,
-    /// Three for each smooth or textured triangle.
-    pub corners: Arc<[Corner]>,
+    /// Texture coordinates, to the right and upwards: three for each textured triangle.
+    pub uvs: Arc<[[f32; 2]]>,
     /// Row 0 is the air.
     pub materials: Vec<Material>,
     /// Names of `materials`.
@@ -87,7 +87,7 @@ impl FlatScene {
             bounds,
             bvh_depth: depth,
             attributes: Arc::default(),
-            corners: Arc::default(),
+            uvs: Arc::default(),
             materials: vec![],
             material_names: vec![],
             lights: vec![],

@@ -16,7 +16,7 @@ mod view;
 pub use adaptive::{Statistics, refinement_rounds};
 pub use effects::{Effect, EffectChoice, EffectSet, Effects, Finding, Lights, Number, Numbers, Plan, Scan};
 pub use flat_scene::{Body, FlatScene, FlatTexture};
-pub use records::{Aov, Attribute, Corner, Light, Material, Node, Texel, Triangle, WideNode};
+pub use records::{Aov, Attribute, Light, Material, Node, Texel, Triangle, WideNode};
 pub use settings::{Backend, Float, Intersector, Precision, Settings};
 pub use tile::{FilmHead, Tile};
 pub use tree::TreeNode;

@@ -72,44 +72,40 @@ pub struct Triangle {
     pub reserved2: u32,
 }
 
-/// What a hit needs to know about a triangle, in the order of primitive ids.
-#[repr(C)]
+/// What a hit needs to know about a triangle, in the order of primitive ids: one cache line.
+#[repr(C, align(64))]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct Attribute {
     /// Unit face normal, out of the matter, rounded from f64.
     pub normal: [f32; 3],
     /// Index into the materials.
     pub material: u32,
+    /// Unit shading normal of the first corner, out of the matter; zero, as are the others', on a flat face.
+    pub normal0: [f32; 3],
     /// Body id. Below `View::transmissive_bodies` it is also the body's bit in the media mask.
     pub body: u32,
+    /// That of the second corner.
+    pub normal1: [f32; 3],
     /// The second body of a merged interface: its id, plus [`Attribute::OPPOSITE`] where its outside
     /// is on the other side; [`Attribute::NONE`] where there is none.
     pub other: u32,
-    /// First of three [`Corner`]s, or [`Attribute::NONE`] for a flat face without texture.
-    pub corners: u32,
-    /// Unused, 0.
-    pub reserved: u32,
+    /// That of the third corner.
+    pub normal2: [f32; 3],
+    /// First of three texture coordinates, or [`Attribute::NONE`] for a face without texture.
+    pub uvs: u32,
 }
 
 impl Attribute {
-    /// No second body, no corners.
+    /// No second body, no texture coordinates.
     pub const NONE: u32 = constants::NONE;
     /// Flag in `other`: the second body's matter lies on the front side of the face.
     pub const OPPOSITE: u32 = constants::OPPOSITE;
-}
 
-/// Shading data of one corner.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
-pub struct Corner {
-    /// Unit shading normal, out of the matter.
-    pub normal: [f32; 3],
-    /// Texture coordinate to the right.
-    pub u: f32,
-    /// Geometric position is not repeated here; reserved words keep the record a multiple of 16 bytes.
-    pub reserved: [f32; 3],
-    /// Texture coordinate upwards.
-    pub v: f32,
+    /// Whether the corners have shading normals.
+    #[must_use]
+    pub fn is_smooth(&self) -> bool {
+        self.normal0 != [0.0; 3]
+    }
 }
 
 /// Surface and medium, linear RGB. Row 0 is the air: transparent, refractive index 1.

@@ -82,7 +82,7 @@ fn key(config: &Config, subject: &Subject, baseline: &Baseline) -> String {
         bytemuck::cast_slice(&flat.nodes),
         bytemuck::cast_slice(&flat.triangles),
         bytemuck::cast_slice(&flat.attributes),
-        bytemuck::cast_slice(&flat.corners),
+        bytemuck::cast_slice(&flat.uvs),
         bytemuck::cast_slice(&flat.materials),
         bytemuck::cast_slice(&flat.lights),
         bytemuck::cast_slice(&flat.texels),

@@ -112,8 +112,9 @@ fn refused(error: &SceneError) -> Outcome {
 /// Fail unless all that `flatten` promises to be finite is.
 fn assert_sound(scene: &FlatScene) {
     let corners = scene.triangles.iter().flat_map(|triangle| [triangle.v0, triangle.v1, triangle.v2]);
-    let normals = scene.attributes.iter().map(|face| face.normal);
-    let shading = scene.corners.iter().flat_map(|corner| [corner.normal, [corner.u, corner.v, 0.0]]);
+    let normals =
+        scene.attributes.iter().flat_map(|face| [face.normal, face.normal0, face.normal1, face.normal2]);
+    let shading = scene.uvs.iter().map(|&[u, v]| [u, v, 0.0]);
     let lights = scene.lights.iter().flat_map(|light| [light.position, light.intensity]);
     let materials = scene.materials.iter().flat_map(|row| {
         let indices = [row.ior, row.shininess, 0.0];

@@ -6,8 +6,7 @@ use bytemuck::Zeroable;
 use naga::{ArraySize, Module, Scalar, ScalarKind, StructMember, Type, TypeInner, VectorSize};
 use snellius::gpu::{SOURCES, Source, assemble};
 use snellius::layout::{
-    Aov, Attribute, Corner, FilmHead, Light, Material, Statistics, Texel, Tile, TreeNode, Triangle, View,
-    WideNode,
+    Aov, Attribute, FilmHead, Light, Material, Statistics, Texel, Tile, TreeNode, Triangle, View, WideNode,
 };
 
 use super::planted::Planted;
@@ -71,8 +70,7 @@ fn rust_records() -> Vec<Record> {
     vec![
         record!("WideNode", WideNode { origin, scales, first_child, first_triangle, leaves, planes }),
         record!("Triangle", Triangle { v0, id, v1, reserved1, v2, reserved2 }),
-        record!("Attribute", Attribute { normal, material, body, other, corners, reserved }),
-        record!("Corner", Corner { normal, u, reserved, v }),
+        record!("Attribute", Attribute { normal, material, normal0, body, normal1, other, normal2, uvs }),
         record!(
             "Material",
             Material {

@@ -31,12 +31,11 @@ pub(super) fn triangle() -> FlatScene {
         attributes: Arc::new([Attribute {
             normal: [0.0, 0.0, 1.0],
             material: 1,
-            body: 0,
             other: NONE,
-            corners: NONE,
-            reserved: 0,
+            uvs: NONE,
+            ..Attribute::zeroed()
         }]),
-        corners: Arc::default(),
+        uvs: Arc::default(),
         materials: vec![
             Material { ior: 1.0, transmission: [1.0; 3], texture: NONE, ..Material::zeroed() },
             Material { ior: 1.0, diffuse: [1.0; 3], texture: NONE, ..Material::zeroed() },

@@ -173,7 +173,7 @@ fn buffers(flat: &FlatScene, [width, height]: [u32; 2]) -> Vec<Buffer> {
         ("nodes", size_of_val(packed.nodes.as_slice()) as u64),
         ("triangles", size_of_val(&*flat.triangles) as u64),
         ("attributes", size_of_val(&*flat.attributes) as u64),
-        ("corners", size_of_val(&*flat.corners) as u64),
+        ("texture coordinates", size_of_val(&*flat.uvs) as u64),
         ("materials", size_of_val(flat.materials.as_slice()) as u64),
         ("lights", size_of_val(flat.lights.as_slice()) as u64),
         ("texels", size_of_val(&*flat.texels) as u64),

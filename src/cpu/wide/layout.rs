@@ -137,6 +137,15 @@ impl Leaf {
         leaf
     }
 
+    /// The triangle of a lane.
+    #[inline(always)]
+    pub(super) fn triangle(&self, lane: usize) -> Triangle {
+        let [v0, v1, v2] = &self.corners;
+        let corner = |[x, y, z]: &[[f32; WIDTH]; 3]| [x[lane], y[lane], z[lane]];
+        let (v0, v1, v2) = (corner(v0), corner(v1), corner(v2));
+        Triangle { v0, id: self.ids[lane], v1, reserved1: 0, v2, reserved2: 0 }
+    }
+
     /// A coordinate of all first, second and third corners.
     #[inline(always)]
     pub(super) fn corners(&self, axis: Axis) -> [&[f32; WIDTH]; 3] {

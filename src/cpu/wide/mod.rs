@@ -117,6 +117,13 @@ impl WideBvh {
     #[must_use]
     #[inline]
     pub fn intersect(&self, ray: &Ray<f32>, limit: f32) -> Hit<f32> {
+        let hit = self.nearest(ray, limit);
+        if hit.id == NONE { hit } else { Hit { index: self.tree.index(hit.index), ..hit } }
+    }
+
+    /// [`intersect`](Self::intersect), but for `index`: it is for [`triangle`](Self::triangle).
+    #[inline]
+    pub(super) fn nearest(&self, ray: &Ray<f32>, limit: f32) -> Hit<f32> {
         let miss = Hit { t: limit, id: NONE, index: NONE, b1: 0.0, b2: 0.0, front: false };
         if !is_usable(ray) {
             return miss;
@@ -128,11 +135,17 @@ impl WideBvh {
         Hit {
             t: best.t,
             id: best.id,
-            index: self.tree.index(best.place),
+            index: best.place,
             b1: best.b1,
             b2: best.b2,
             front: best.turns == (ray.shear.by.z > 0.0),
         }
+    }
+
+    /// A triangle as it lies in its leaf.
+    #[inline]
+    pub(super) fn triangle(&self, place: u32) -> Triangle {
+        self.tree.triangle(place)
     }
 
     /// Whether any triangle lies in (0, limit), as [`bvh::occluded`](crate::kernel::bvh::occluded) says.

@@ -55,6 +55,12 @@ impl Tree {
         self.firsts[place as usize / WIDTH] + place % WIDTH as u32
     }
 
+    /// The triangle at a place.
+    #[inline(always)]
+    pub(super) fn triangle(&self, place: u32) -> Triangle {
+        self.leaves[place as usize / WIDTH].triangle(place as usize % WIDTH)
+    }
+
     /// Begin to fetch the children of a node whose bit is set.
     #[inline(always)]
     pub(super) fn prefetch(&self, node: &Node, mut bits: u32) {

@@ -91,7 +91,7 @@ impl Scan {
 struct Scanner<'a> {
     scene: &'a FlatScene,
     used: Vec<usize>,
-    /// A face with corners of its own.
+    /// A face with shading normals.
     smooth: Option<&'a Attribute>,
 }
 
@@ -101,7 +101,7 @@ impl<'a> Scanner<'a> {
         let mut smooth = None;
         for face in &*scene.attributes {
             used[face.material as usize] = true;
-            if smooth.is_none() && face.corners != Attribute::NONE {
+            if smooth.is_none() && face.is_smooth() {
                 smooth = Some(face);
             }
         }

@@ -2,7 +2,7 @@
 //! overlapping bodies, under a background picture. It looks like nothing.
 
 use crate::layout::constants::{NONE, OPPOSITE};
-use crate::layout::{Attribute, Corner, FlatScene, FlatTexture, Light, Material, Node, Triangle, View};
+use crate::layout::{Attribute, FlatScene, FlatTexture, Light, Material, Node, Triangle, View};
 use bytemuck::Zeroable;
 
 use super::inputs::{Generator, Input};
@@ -27,8 +27,8 @@ pub(super) fn scene() -> FlatScene {
     let depth = add_node(&mut nodes, &triangles, 0, TRIANGLES);
     FlatScene {
         nodes: nodes.into(),
-        attributes: triangles.iter().map(attribute).collect(),
-        corners: (0..3 * TRIANGLES).map(|_| corner(&mut random)).collect(),
+        attributes: triangles.iter().map(|triangle| attribute(&mut random, triangle)).collect(),
+        uvs: (0..3 * TRIANGLES).map(|_| uv(&mut random)).collect(),
         triangles: triangles.into(),
         materials: materials(),
         material_names: ["air", "glass", "water", "metal", "paper"].map(str::to_owned).to_vec(),
@@ -116,8 +116,8 @@ fn triangle(random: &mut Generator, id: u32) -> Triangle {
     Triangle { v0, id, v1, reserved1: 0, v2, reserved2: 0 }
 }
 
-/// Bodies 0 to 2 transmit; every other face has corners; some are interfaces of two bodies.
-fn attribute(triangle: &Triangle) -> Attribute {
+/// Bodies 0 to 2 transmit; every other face is smooth, two of three are textured; some are interfaces of two bodies.
+fn attribute(random: &mut Generator, triangle: &Triangle) -> Attribute {
     let id = triangle.id;
     let body = id % 4;
     let other = match id % 7 {
@@ -128,19 +128,24 @@ fn attribute(triangle: &Triangle) -> Attribute {
     let [e1, e2] = [triangle.v1, triangle.v2].map(|v| [0, 1, 2].map(|a| v[a] - triangle.v0[a]));
     let cross = [(1, 2), (2, 0), (0, 1)].map(|(a, b)| e1[a] * e2[b] - e1[b] * e2[a]);
     let length = cross.iter().map(|x| x * x).sum::<f32>().sqrt();
+    let is_smooth = id.is_multiple_of(2);
+    let [normal0, normal1, normal2] =
+        [0; 3].map(|_| if is_smooth { vector(random, Input::Direction) } else { [0.0; 3] });
     Attribute {
         normal: cross.map(|x| x / length),
         material: body + 1,
+        normal0,
         body,
+        normal1,
         other,
-        corners: if id.is_multiple_of(2) { 3 * id } else { NONE },
-        reserved: 0,
+        normal2,
+        uvs: if id.is_multiple_of(3) { NONE } else { 3 * id },
     }
 }
 
-fn corner(random: &mut Generator) -> Corner {
+fn uv(random: &mut Generator) -> [f32; 2] {
     let [u, v, _] = vector(random, Input::Point);
-    Corner { normal: vector(random, Input::Direction), u, reserved: [0.0; 3], v }
+    [u, v]
 }
 
 /// All of them carry the texture.
