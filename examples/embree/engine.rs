@@ -131,7 +131,7 @@ impl<'a> Scene<'a> {
     ) -> Duration {
         let chunks = || {
             let pairs = rays.par_chunks(CHUNK).zip(found.par_chunks_mut(CHUNK));
-            pairs.for_each(|(rays, found)| match mode {
+            pairs.with_max_len(1).for_each(|(rays, found)| match mode {
                 Mode::Single => self.one_by_one(rays, query, found),
                 Mode::Coherent => self.in_packets(rays, query, found),
             });

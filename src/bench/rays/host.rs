@@ -67,7 +67,8 @@ impl<'a> RayHost<'a> {
         let Self { world, tree, rays, query, mode, pool, found } = self;
         let chunks = || {
             let pairs = rays.par_chunks(CHUNK).zip(found.par_chunks_mut(CHUNK));
-            pairs.for_each(|(rays, found)| match mode {
+            // Each for itself: else rayon hands out rows of them, up to a quarter of all, and a thread waits at the end.
+            pairs.with_max_len(1).for_each(|(rays, found)| match mode {
                 Mode::Single => one_by_one(world, tree, rays, *query, found),
                 Mode::Coherent => as_stream(tree, rays, *query, found),
             });
