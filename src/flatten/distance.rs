@@ -46,8 +46,11 @@ pub(super) fn greatest_lift(scene: &FlatScene) -> f64 {
 /// that it is greatest at a corner; the starting point is a mean of three lifted points.
 fn lift(scene: &FlatScene, triangle: &Triangle) -> f64 {
     let face = &scene.attributes[triangle.id as usize];
+    if !face.is_smooth() {
+        return 0.0;
+    }
     let points = corners(triangle);
-    // From the back the normals are negated: heights of either sign count. Those of a flat face are zero.
+    // From the back the normals are negated: heights of either sign count.
     let heights =
         points.iter().zip([face.normal0, face.normal1, face.normal2]).flat_map(|(&corner, normal)| {
             points.iter().map(move |&point| (point - corner).dot(widen3(normal)).abs())

@@ -65,9 +65,7 @@ impl Faces {
         rows: &Rows,
     ) -> Attribute {
         let id = placed.model.materials[triangle.material as usize];
-        let textured =
-            rows.is_textured(id) && triangle.uvs.iter().all(|&index| index != scene::Triangle::NONE);
-        let uvs = if textured { self.append_uvs(placed, triangle) } else { Attribute::NONE };
+        let uvs = if rows.is_textured(id) { self.append_uvs(placed, triangle) } else { Attribute::NONE };
         let [normal0, normal1, normal2] = normals.unwrap_or_default();
         Attribute {
             normal: [0.0; 3],
@@ -81,10 +79,12 @@ impl Faces {
         }
     }
 
+    /// A triangle without coordinates appends none: it takes the texture's lower left corner.
     fn append_uvs(&mut self, placed: &Placed, triangle: &scene::Triangle) -> u32 {
+        let uvs = triangle.uvs.map(|index| placed.model.mesh.uvs.get(index as usize));
+        let [Some(uv0), Some(uv1), Some(uv2)] = uvs else { return Attribute::NONE };
         let first = self.uvs.len() as u32;
-        let uvs = triangle.uvs.map(|index| placed.model.mesh.uvs[index as usize]);
-        self.uvs.extend(uvs.map(|uv| [narrow(uv.x), narrow(uv.y)]));
+        self.uvs.extend([uv0, uv1, uv2].map(|uv| [narrow(uv.x), narrow(uv.y)]));
         first
     }
 
